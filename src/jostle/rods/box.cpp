@@ -1,0 +1,24 @@
+#include "jostle/rods/box.hpp"
+
+#include <cmath>
+
+namespace jostle {
+
+void Box::wrap(Vec3& centre, Image& image) const {
+    for (int k = 0; k < 3; ++k) {
+        const auto direction = static_cast<std::size_t>(k);
+        if (!periodic[direction] || (centre[k] >= 0.0 && centre[k] < edges[k])) continue;
+        const double crossed = std::floor(centre[k] / edges[k]);
+        double wrapped = centre[k] - crossed * edges[k];
+        auto count = static_cast<std::int32_t>(crossed);
+        if (wrapped < 0.0) wrapped = 0.0;  // rounding
+        if (wrapped >= edges[k]) {         // rounding: a hair below 0 becomes the edge itself
+            wrapped = 0.0;
+            ++count;
+        }
+        centre[k] = wrapped;
+        image[direction] += count;
+    }
+}
+
+}  // namespace jostle

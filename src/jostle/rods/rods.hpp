@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "jostle/math/vec3.hpp"
+
+namespace jostle {
+
+/// How many box edges along x, y, z lie between a rod (or a contact partner) and its wrapped copy.
+using Image = std::array<std::int32_t, 3>;
+
+/// The rods of an assembly: a structure of arrays, one row a rod, rows in id order.
+///
+/// A rod is a spherocylinder: the points within diameter/2 of the segment centre +- (length/2) axis.
+/// A sphere is a rod of length 0; it still has an axis (the direction it swims in).
+struct Rods {
+    std::vector<Vec3> centre;       ///< (N) inside the box along periodic directions
+    std::vector<Vec3> axis;         ///< (N) unit vectors
+    std::vector<double> length;     ///< (N) of the cylinder part, >= 0
+    std::vector<double> diameter;   ///< (N) > 0
+    std::vector<std::uint64_t> id;  ///< (N) permanent, never reused
+    std::vector<Image> image;       ///< (N) box edges crossed since the start: unwrapped = centre + image * edges
+
+    std::size_t size() const { return centre.size(); }
+
+    void push_back(std::uint64_t new_id, const Vec3& new_centre, const Vec3& new_axis, double new_length,
+                   double new_diameter) {
+        centre.push_back(new_centre);
+        axis.push_back(new_axis);
+        length.push_back(new_length);
+        diameter.push_back(new_diameter);
+        id.push_back(new_id);
+        image.push_back({0, 0, 0});
+    }
+};
+
+/// Volume of a spherocylinder, pi (L D^2/4 + D^3/6).
+double rod_volume(double length, double diameter);
+
+/// Sum of the rods' volumes.
+double total_volume(const Rods& rods);
+
+}  // namespace jostle
