@@ -1,0 +1,23 @@
+#pragma once
+
+#include "jostle/lcp/lcp_problem.hpp"
+
+namespace jostle {
+
+/// Barzilai-Borwein projected gradient descent, the paper's solver (its appendix; Dai and Fletcher 2005):
+///
+///     gamma <- max(gamma - alpha (A gamma + b), 0),     one application of A an iteration.
+///
+/// Departures from the paper:
+/// 1. The first step length is g.g / g.A g with g the projected gradient, where the paper takes all of g; at a cold
+/// start
+///    contacts that are already apart then do not blur it.
+/// 2. The residual is a length by default (LcpResidual).
+/// 3. s.y <= 0 (A is only semi-definite) keeps the last step length; s = 0 means that the iteration stands still, and
+/// ends it.
+/// 4. When it does not converge, the best iterate is returned, with the reason.
+///
+/// `start` is the first iterate (>= 0), or empty for zero. Deterministic for any number of threads.
+LcpResult solve_bbpgd(const LcpProblem& problem, const LcpSettings& settings, std::span<const double> start = {});
+
+}  // namespace jostle

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "jostle/lcp/linear_operator.hpp"
+
+namespace jostle {
+
+/// Find gamma with  0 <= A gamma + b  perp  gamma >= 0  (theory, eq. 3), A symmetric positive semi-definite.
+///
+/// Equivalently: minimise 1/2 gamma.A.gamma + b.gamma over gamma >= 0. gamma need not be unique, A gamma is.
+struct LcpProblem {
+    const LinearOperator& matrix;
+    std::span<const double> constant;  ///< b, a velocity per contact
+    double time_step = 1.0;            ///< turns the velocities A gamma + b into lengths, for the residual
+};
+
+/// Which numbers say that the problem is solved.
+enum class LcpResidual {
+    length,  ///< max_l |min(A_ll gamma_l, (A gamma + b)_l)| dt: a length, independent of units and of the number of
+             ///< contacts
+    paper,   ///< ||min(gamma, A gamma + b)||_2, which mixes a force and a velocity; only to repeat the paper
+};
+
+/// Step length of the Barzilai-Borwein iteration; s and y are the last changes of gamma and of the gradient.
+enum class BarzilaiBorwein {
+    bb1,          ///< s.s / s.y
+    bb2,          ///< s.y / y.y
+    alternating,  ///< bb1 at odd iterations, bb2 at even ones
+};
+
+struct LcpSettings {
+    LcpResidual residual = LcpResidual::length;
+    double tolerance = 1e-5;               ///< a length for LcpResidual::length; in the units of the problem
+    std::uint64_t max_iterations = 10000;  ///< applications of A
+    BarzilaiBorwein step_rule = BarzilaiBorwein::bb1;
+};
+
+enum class LcpStatus {
+    converged,
+    iteration_limit,  ///< the residual is still above the tolerance
+    infeasible,       ///< no velocity of the rods opens all contacts: they are packed too densely
+    not_finite,       ///< the problem or an iterate holds NaN or infinity
+};
+
+struct LcpResult {
+    LcpStatus status = LcpStatus::converged;
+    std::vector<double> solution;  ///< gamma >= 0: the last iterate, or the best one when not converged
+    std::vector<double> velocity;  ///< A gamma + b of that iterate
+    double residual = 0.0;         ///< of that iterate, in the chosen measure, over all contacts
+    std::uint64_t iterations = 0;  ///< applications of A
+};
+
+/// The residual of a candidate solution, over all contacts. `velocity` is A gamma + b.
+double lcp_residual(const LcpProblem& problem, LcpResidual kind, std::span<const double> gamma,
+                    std::span<const double> velocity);
+
+}  // namespace jostle
