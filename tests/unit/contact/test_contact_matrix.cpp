@@ -1,0 +1,101 @@
+#include <doctest/doctest.h>
+
+#include "assemblies.hpp"
+#include "jostle/contact/contact_matrix.hpp"
+#include "jostle/contact/find_contacts.hpp"
+#include "jostle/math/rotation.hpp"
+
+using namespace jostle;
+using namespace jostle::test;
+
+namespace {
+
+struct Assembly {
+    Box box;
+    Rods rods;
+    Contacts contacts;
+
+    Assembly(const Vec3& edges, std::size_t count, unsigned seed) : box{edges, {true, true, true}} {
+        std::mt19937_64 engine(seed);
+        rods = thrown(count, box, 5.0, 1.0, engine);
+        NeighbourList neighbours(0.1);
+        const std::vector<double> reach(rods.size(), 0.2);
+        neighbours.update(rods, box, reach);
+        find_contacts(rods, box, neighbours, reach, contacts);
+    }
+};
+
+Velocities random_velocities(std::size_t count, std::mt19937_64& engine) {
+    std::normal_distribution<double> normal;
+    Velocities velocities(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        velocities.linear[k] = {normal(engine), normal(engine), normal(engine)};
+        velocities.angular[k] = {normal(engine), normal(engine), normal(engine)};
+    }
+    return velocities;
+}
+
+}  // namespace
+
+TEST_CASE("D^T is the gradient of the gaps: finite differences") {
+    for (const auto& edges : {Vec3{8, 8, 8}, Vec3{20, 4, 3}}) {  // the thin box has rods that meet their own images
+        Assembly assembly(edges, 24, 5);
+        REQUIRE(assembly.contacts.size() > 20);
+        std::mt19937_64 engine(17);
+        const Velocities velocities = random_velocities(assembly.rods.size(), engine);
+        const ContactMatrix D(assembly.contacts, assembly.rods);
+        std::vector<double> rates(assembly.contacts.size());
+        D.apply_transpose(velocities, rates);
+
+        const double h = 1e-6;
+        const auto gap_after = [&](std::size_t l, double time) {
+            std::vector<Vec3> centre = assembly.rods.centre, axis = assembly.rods.axis;
+            for (std::size_t k = 0; k < centre.size(); ++k) {
+                centre[k] += time * velocities.linear[k];
+                axis[k] = rotated(axis[k], time * velocities.angular[k]);
+            }
+            return gap_at(assembly.contacts, l, assembly.rods, assembly.box, centre, axis);
+        };
+        for (std::size_t l = 0; l < rates.size(); ++l) {
+            // Deep overlaps of nearly parallel or crossing axes turn their normal quickly: central differences see that
+            // at order h^2.
+            if (assembly.contacts.contact[l].gap < -0.6) continue;
+            const double difference = (gap_after(l, h) - gap_after(l, -h)) / (2.0 * h);
+            CHECK(rates[l] == doctest::Approx(difference).epsilon(1e-5).scale(1.0));
+        }
+    }
+}
+
+TEST_CASE("D and D^T are transposes, also where a rod meets its own image") {
+    Assembly assembly({15, 4, 3}, 16, 9);
+    std::mt19937_64 engine(23);
+    std::normal_distribution<double> normal;
+    const ContactMatrix D(assembly.contacts, assembly.rods);
+    bool self_contact = false;
+    for (const Contact& contact : assembly.contacts.contact) self_contact |= contact.i == contact.j;
+    REQUIRE(self_contact);
+    for (int trial = 0; trial < 20; ++trial) {
+        std::vector<double> gamma(assembly.contacts.size()), rates(assembly.contacts.size());
+        for (double& value : gamma) value = normal(engine);
+        const Velocities velocities = random_velocities(assembly.rods.size(), engine);
+        Forces forces(assembly.rods.size());
+        D.apply(gamma, forces);
+        D.apply_transpose(velocities, rates);
+        double by_contacts = 0.0, by_rods = 0.0;
+        for (std::size_t l = 0; l < gamma.size(); ++l) by_contacts += gamma[l] * rates[l];
+        for (std::size_t k = 0; k < forces.size(); ++k)
+            by_rods += dot(forces.force[k], velocities.linear[k]) + dot(forces.torque[k], velocities.angular[k]);
+        CHECK(by_contacts == doctest::Approx(by_rods).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("contact forces have no net force") {
+    Assembly assembly({8, 8, 8}, 24, 13);
+    const ContactMatrix D(assembly.contacts, assembly.rods);
+    const std::vector<double> gamma(assembly.contacts.size(), 1.0);
+    Forces forces(assembly.rods.size());
+    D.apply(gamma, forces);
+    Vec3 net;
+    for (const Vec3& force : forces.force) net += force;
+    CHECK(norm(net) < 1e-12 * static_cast<double>(gamma.size()));
+}

@@ -1,0 +1,133 @@
+#include <doctest/doctest.h>
+
+#include <set>
+#include <tuple>
+
+#include "assemblies.hpp"
+#include "jostle/contact/find_contacts.hpp"
+#include "jostle/math/rotation.hpp"
+
+using namespace jostle;
+using namespace jostle::test;
+
+namespace {
+
+using Key = std::tuple<std::size_t, std::size_t, Image>;
+
+std::set<Key> keys(const std::vector<BrutePair>& pairs) {
+    std::set<Key> result;
+    for (const auto& pair : pairs) result.emplace(pair.i, pair.j, pair.image);
+    return result;
+}
+
+std::set<Key> keys(const Contacts& contacts) {
+    std::set<Key> result;
+    for (std::size_t l = 0; l < contacts.size(); ++l)
+        result.emplace(contacts.contact[l].i, contacts.contact[l].j, contacts.image[l]);
+    return result;
+}
+
+void walk(Rods& rods, const Box& box, double step, std::mt19937_64& engine) {
+    std::normal_distribution<double> normal(0.0, step);
+    for (std::size_t i = 0; i < rods.size(); ++i) {
+        rods.centre[i] += Vec3{normal(engine), normal(engine), normal(engine)};
+        box.wrap(rods.centre[i], rods.image[i]);
+        const double lever = 1.0 + 0.5 * rods.length[i];  // tips move about as far as centres
+        rods.axis[i] = rotated(rods.axis[i], Vec3{normal(engine), normal(engine), normal(engine)} / lever);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("no pair within reach is missed, in any box, while rods move: against brute force") {
+    const unsigned seed = 7;
+    MESSAGE("seed ", seed);
+    std::mt19937_64 engine(seed);
+    struct Case {
+        const char* name;
+        Box box;
+        std::size_t count;
+        double length;
+    };
+    const std::vector<Case> cases = {
+        {"roomy", {{30, 30, 30}, {true, true, true}}, 150, 5.0},
+        {"thinner than two rods", {{9, 8, 11}, {true, true, true}}, 40, 5.0},
+        {"thinner than one rod", {{20, 3, 2.5}, {true, true, true}}, 20, 5.0},
+        {"as thin as a diameter", {{12, 1.0, 1.0}, {true, true, true}}, 8, 5.0},
+        {"open", {{15, 15, 15}, {false, false, false}}, 60, 5.0},
+        {"slit", {{15, 15, 4}, {true, true, false}}, 60, 5.0},
+        {"spheres", {{10, 10, 10}, {true, true, true}}, 200, 0.0},
+        {"long", {{25, 25, 25}, {true, true, true}}, 60, 20.0},
+    };
+    for (const Case& test : cases) {
+        CAPTURE(test.name);
+        Rods rods = thrown(test.count, test.box, test.length, 1.0, engine);
+        NeighbourList neighbours(0.3);
+        Contacts contacts;
+        int built = 0;
+        for (int step = 0; step < 8; ++step) {
+            std::vector<double> reach(rods.size());
+            std::uniform_real_distribution<double> uniform(0.0, 0.15);
+            for (double& value : reach) value = uniform(engine);
+            built += neighbours.update(rods, test.box, reach) ? 1 : 0;
+            const double overlap = find_contacts(rods, test.box, neighbours, reach, contacts);
+
+            std::set<Key> expected;
+            double deepest = 0.0;
+            for (const auto& pair : brute_force_pairs(rods, test.box, 0.3)) {
+                if (pair.gap < reach[pair.i] + reach[pair.j]) expected.emplace(pair.i, pair.j, pair.image);
+                deepest = std::max(deepest, -pair.gap);
+            }
+            CHECK(keys(contacts) == expected);
+            CHECK(overlap == doctest::Approx(deepest).epsilon(1e-12));
+            walk(rods, test.box, 0.02, engine);
+        }
+        CHECK(built < 8);  // the list is reused, or the test would not test its skin
+    }
+}
+
+TEST_CASE("a rod meets another through two images, and its own image") {
+    // A box two diameters thin: a rod across the thin direction touches its neighbour on both sides.
+    const Box box{{10, 10, 2.0}, {true, true, true}};
+    Rods rods;
+    rods.push_back(0, {2, 2, 0.5}, {1, 0, 0}, 3.0, 1.0);
+    rods.push_back(1, {2, 2, 1.5}, {1, 0, 0}, 3.0, 1.0);
+    const auto pairs = keys(brute_force_pairs(rods, box, 0.1));
+    CHECK(pairs == std::set<Key>{{0, 1, {0, 0, 0}}, {0, 1, {0, 0, -1}}});
+    NeighbourList neighbours(0.2);
+    const std::vector<double> reach{0.05, 0.05};
+    neighbours.update(rods, box, reach);
+    Contacts contacts;
+    find_contacts(rods, box, neighbours, reach, contacts);
+    CHECK(keys(contacts) == pairs);
+
+    rods = {};
+    rods.push_back(0, {5, 5, 1.0}, {0, 0, 1}, 1.0, 1.0);  // total length 2 along the edge of 2: it touches itself
+    neighbours.update(rods, box, {reach.data(), 1});
+    find_contacts(rods, box, neighbours, {reach.data(), 1}, contacts);
+    REQUIRE(contacts.size() == 1);
+    CHECK(contacts.image[0] == Image{0, 0, 1});
+    CHECK(contacts.contact[0].gap == doctest::Approx(0.0).epsilon(1e-14).scale(1.0));
+}
+
+TEST_CASE("contacts do not depend on when the list was built") {
+    std::mt19937_64 engine(11);
+    const Box box{{9, 8, 7}, {true, true, true}};
+    Rods rods = thrown(60, box, 5.0, 1.0, engine);
+    const std::vector<double> reach(rods.size(), 0.1);
+    NeighbourList old_list(0.5);
+    old_list.update(rods, box, reach);
+    for (int step = 0; step < 5; ++step) walk(rods, box, 0.02, engine);
+    CHECK_FALSE(old_list.update(rods, box, reach));
+    NeighbourList new_list(0.2);
+    new_list.update(rods, box, reach);
+    Contacts from_old, from_new;
+    find_contacts(rods, box, old_list, reach, from_old);
+    find_contacts(rods, box, new_list, reach, from_new);
+    REQUIRE(from_old.size() == from_new.size());
+    for (std::size_t l = 0; l < from_old.size(); ++l) {
+        CHECK(from_old.image[l] == from_new.image[l]);
+        CHECK(from_old.contact[l].gap == from_new.contact[l].gap);  // bit for bit
+        CHECK(from_old.contact[l].normal == from_new.contact[l].normal);
+    }
+}
