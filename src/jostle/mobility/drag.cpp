@@ -1,0 +1,73 @@
+#include "jostle/mobility/drag.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "jostle/error/input_error.hpp"
+
+namespace jostle {
+
+namespace {
+
+using std::numbers::pi;
+
+std::string written(double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+}
+
+void require(bool good, const char* key, double value, const char* problem, const char* allowed) {
+    if (!good)
+        throw InputError({.key = key,
+                          .value = written(value),
+                          .problem = problem,
+                          .allowed = allowed,
+                          .suggestion = {},
+                          .place = {}});
+}
+
+void require_physical(double length, double diameter, double viscosity) {
+    require(std::isfinite(length) && length >= 0.0, "rods.length", length, "is no length of a rod", ">= 0, finite");
+    require(std::isfinite(diameter) && diameter > 0.0, "rods.diameter", diameter, "is no diameter of a rod",
+            "> 0, finite");
+    require(std::isfinite(viscosity) && viscosity > 0.0, "fluid.viscosity", viscosity, "is no viscosity",
+            "> 0, finite");
+}
+
+/// ln p + c_0 + c_1/p + c_2/p^2 + a/p^4, where a makes it `at_sphere` at p = 1.
+double bracket(double p, double c_0, double c_1, double c_2, double at_sphere) {
+    const double a = at_sphere - (c_0 + c_1 + c_2);
+    const double q = 1.0 / p, q_squared = q * q;
+    return std::log(p) + c_0 + c_1 * q + q_squared * (c_2 + a * q_squared);
+}
+
+}  // namespace
+
+RodMobility slender_body_drag(double length, double diameter, double viscosity) {
+    require_physical(length, diameter, viscosity);
+    const double b = length > 0.0 ? 2.0 * std::log(2.0 * length / diameter) - 1.0 : -1.0;
+    if (b <= 0.0)
+        throw InputError(
+            {.key = "mobility.model",
+             .value = "slender_body",
+             .problem = "gives a rod of L/D = " + written(length / diameter) + " negative drag along its axis",
+             .allowed = "L/D > sqrt(e)/2 = 0.824",
+             .suggestion = "Use finite_aspect_ratio, which holds for every L/D >= 0",
+             .place = {}});
+    const double unit = 8.0 * pi * viscosity * length;
+    return {2.0 * b / unit, (b + 2.0) / unit, 12.0 * (b + 2.0) / (unit * length * length)};
+}
+
+RodMobility finite_aspect_ratio_drag(double length, double diameter, double viscosity) {
+    require_physical(length, diameter, viscosity);
+    const double total = length + diameter;
+    const double p = total / diameter;
+    const double unit = pi * viscosity * total;
+    return {bracket(p, -0.207, 0.980, -0.133, 2.0 / 3.0) / (2.0 * unit),
+            bracket(p, 0.839, 0.185, 0.233, 4.0 / 3.0) / (4.0 * unit),
+            3.0 * bracket(p, -0.662, 0.917, -0.050, 1.0 / 3.0) / (unit * total * total)};
+}
+
+}  // namespace jostle

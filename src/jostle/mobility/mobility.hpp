@@ -1,0 +1,40 @@
+#pragma once
+
+#include "jostle/rods/forces.hpp"
+#include "jostle/rods/rods.hpp"
+#include "jostle/rods/velocities.hpp"
+
+namespace jostle {
+
+/// How one rod alone answers to force and torque: U = [parallel n n + perpendicular (I - n n)] F, Omega = rotational (I
+/// - n n) T.
+///
+/// Spin about the axis moves nothing that jostle sees, so it is left out.
+struct RodMobility {
+    double parallel = 0.0;       ///< velocity per force along the axis
+    double perpendicular = 0.0;  ///< velocity per force across the axis
+    double rotational = 0.0;     ///< angular velocity per torque across the axis
+};
+
+/// The linear map from forces on the rods to their velocities: symmetric, positive semi-definite.
+///
+/// The only thing that the contact problem knows of the fluid. `rods` in the calls are those of the last `update`.
+class Mobility {
+public:
+    virtual ~Mobility() = default;
+
+    /// Takes over the present lengths and diameters; to be called whenever these change (not when rods move).
+    virtual void update(const Rods& rods) = 0;
+
+    /// velocities = M forces, for the present axes of `rods`.
+    virtual void apply(const Rods& rods, const Forces& forces, Velocities& velocities) const = 0;
+
+    /// velocities = B xi with B B^T = M, where `normals` holds the standard normal numbers xi: Brownian velocities up
+    /// to the factor sqrt(2 kT / dt).
+    virtual void apply_square_root(const Rods& rods, const Forces& normals, Velocities& velocities) const = 0;
+
+    /// The diagonal block of rod `i`: its own mobility.
+    virtual RodMobility of_rod(std::size_t i) const = 0;
+};
+
+}  // namespace jostle

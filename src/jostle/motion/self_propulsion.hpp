@@ -1,0 +1,19 @@
+#pragma once
+
+#include "jostle/motion/motion.hpp"
+
+namespace jostle {
+
+/// Every rod swims along its axis n with the same speed: U = U_0 n (PHYSICS section 4, E4).
+class SelfPropulsion final : public Motion {
+public:
+    /// speed U_0 (length/time), of either sign; not finite: InputError (key "motion.self_propulsion").
+    explicit SelfPropulsion(double speed);
+
+    void add_to(Velocities& known, const Rods& rods, const StepContext& context) const override;
+
+private:
+    double speed_;
+};
+
+}  // namespace jostle
