@@ -1,0 +1,59 @@
+#include "jostle/statistics/equilibration.hpp"
+
+#include <algorithm>
+
+#include "jostle/statistics/time_series.hpp"
+
+namespace jostle {
+
+namespace {
+
+constexpr std::size_t largest_number_of_blocks = 2048;  // so that a hundred correlation times cost no more than a few
+constexpr std::size_t intervals = 100;
+
+/// Effective samples; a constant series counts as independent rows, for nothing in it drifts.
+double effective_samples(std::span<const double> series) {
+    const Average result = average(series);
+    return result.standard_deviation > 0.0 ? result.effective_samples : static_cast<double>(series.size());
+}
+
+}  // namespace
+
+Equilibration detect_equilibration(std::span<const double> series) {
+    const std::size_t block_length = std::max<std::size_t>(series.size() / largest_number_of_blocks, 1);
+    const std::vector<double> blocks = block_means(series, block_length);
+    const std::size_t left_out = series.size() - blocks.size() * block_length;
+    const std::size_t half = blocks.size() / 2;
+    std::size_t best = 0;
+    double most_samples = 0.0;
+    for (std::size_t k = 0; k <= intervals; ++k) {
+        const std::size_t origin = k * half / intervals;
+        if (k > 0 && origin == (k - 1) * half / intervals) continue;  // a short series has fewer origins
+        const double samples = effective_samples(std::span(blocks).subspan(origin));
+        if (samples > most_samples) {
+            most_samples = samples;
+            best = origin;
+        }
+    }
+    const std::size_t start = best == 0 ? 0 : left_out + best * block_length;
+    const bool settled = 5 * best <= 2 * blocks.size() && most_samples >= least_effective_samples;
+    return {start, effective_samples(series.subspan(start)), settled};
+}
+
+Equilibration detect_equilibration(std::span<const std::vector<double>> series) {
+    Equilibration result;
+    result.reached = !series.empty();
+    for (const std::vector<double>& one : series) {
+        const Equilibration found = detect_equilibration(std::span<const double>(one));
+        result.start = std::max(result.start, found.start);
+        result.reached = result.reached && found.reached;
+    }
+    for (std::size_t k = 0; k < series.size(); ++k) {
+        const std::span<const double> rest = std::span(series[k]).subspan(std::min(result.start, series[k].size()));
+        const double samples = effective_samples(rest);
+        result.effective_samples = k == 0 ? samples : std::min(result.effective_samples, samples);
+    }
+    return result;
+}
+
+}  // namespace jostle

@@ -1,0 +1,37 @@
+#include "jostle/statistics/order_parameter.hpp"
+
+#include <cmath>
+
+#include "jostle/error/input_error.hpp"
+#include "jostle/math/symmetric_eigen.hpp"
+
+namespace jostle {
+
+namespace {
+
+Vec3 with_largest_component_positive(const Vec3& v) {
+    int largest = 0;
+    for (int k = 1; k < 3; ++k)
+        if (std::fabs(v[k]) > std::fabs(v[largest])) largest = k;
+    return v[largest] < 0.0 ? -v : v;
+}
+
+}  // namespace
+
+NematicOrder nematic_order(std::span<const Vec3> axes) {
+    if (axes.empty()) {
+        throw InputError({.key = "axes",
+                          .value = "none",
+                          .problem = "no rods, no order",
+                          .allowed = "at least one axis",
+                          .suggestion = "",
+                          .place = {}});
+    }
+    Mat3 sum;
+    for (const Vec3& axis : axes) sum += outer(axis, axis);
+    const Mat3 tensor = (1.5 / static_cast<double>(axes.size())) * sum - 0.5 * identity();
+    const SymmetricEigen eigen = symmetric_eigen(tensor);
+    return {tensor, eigen.values[2], with_largest_component_positive(eigen.vectors[2])};
+}
+
+}  // namespace jostle

@@ -1,0 +1,146 @@
+#include "jostle/statistics/time_series.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "jostle/error/input_error.hpp"
+
+namespace jostle {
+
+namespace {
+
+constexpr double window_in_correlation_times = 5.0;
+constexpr std::size_t largest_lag = 128;    // longer windows are found on a coarser level
+constexpr std::size_t fewest_blocks = 64;   // of the coarsest level that is compared with finer ones
+constexpr double significant_excess = 2.0;  // in standard deviations
+
+struct MeanError {
+    double squared_error = 0.0;   // variance of the mean
+    double relative_error = 0.0;  // standard deviation of squared_error over itself
+    bool reliable = false;        // the window closed, or only more rows could close it
+};
+
+/// The second pass takes back the rounding of the first, which grows with the number of rows.
+double mean_of(std::span<const double> values) {
+    const auto n = static_cast<double>(values.size());
+    double sum = 0.0, rest = 0.0;
+    for (double value : values) sum += value;
+    for (double value : values) rest += value - sum / n;
+    return sum / n + rest / n;
+}
+
+/// sum_i x_i x_(i + lag)/(n - lag); four sums side by side, for one would wait for its own additions.
+double autocovariance(const std::vector<double>& series, std::size_t lag) {
+    const std::size_t terms = series.size() - lag;
+    const double* x = series.data();
+    double sums[4] = {0.0, 0.0, 0.0, 0.0};
+    std::size_t i = 0;
+    for (; i + 4 <= terms; i += 4)
+        for (std::size_t k = 0; k < 4; ++k) sums[k] += x[i + k] * x[i + k + lag];
+    for (; i < terms; ++i) sums[0] += x[i] * x[i + lag];
+    return ((sums[0] + sums[1]) + (sums[2] + sums[3])) / static_cast<double>(terms);
+}
+
+/// Variance of the mean of one level, from the autocovariance inside a window that its own correlation time chooses.
+///
+/// With V the variance of the mean, the measured autocovariance is too small by V at every lag. So V = (sum of
+/// (1 - |k|/n)(measured + V) over |k| <= window)/n, which is solved for V. A window that is still open at n/4 means
+/// n/4 < 5 correlation times: fewer than ten effective samples, so that no error bar follows.
+MeanError mean_error(std::vector<double> series) {
+    const double mean = mean_of(series);
+    for (double& value : series) value -= mean;
+    const auto n = static_cast<double>(series.size());
+    const std::size_t last_lag = std::min(largest_lag, series.size() / 4);
+    const double measured_variance = autocovariance(series, 0);
+    double covariance_sum = measured_variance, weight_sum = 1.0;
+    MeanError result{0.0, 1.0, last_lag < largest_lag};
+    for (std::size_t lag = 1; lag <= last_lag; ++lag) {
+        const double weight = 1.0 - static_cast<double>(lag) / n;
+        covariance_sum += 2.0 * weight * autocovariance(series, lag);
+        weight_sum += 2.0 * weight;
+        result.squared_error = covariance_sum / (n - weight_sum);
+        result.relative_error = std::sqrt(2.0 * (2.0 * static_cast<double>(lag) + 1.0) / n);
+        const double correlation_time = 0.5 * n * result.squared_error / (measured_variance + result.squared_error);
+        if (static_cast<double>(lag) >= window_in_correlation_times * correlation_time) {
+            result.reliable = true;
+            break;
+        }
+    }
+    return result;
+}
+
+/// Variance of the mean of a series: that of the finest level with a closed window, or of a coarser one that is larger.
+double squared_error_of_mean(std::span<const double> series) {
+    std::vector<double> level(series.begin(), series.end());
+    MeanError result = mean_error(level);
+    while (!result.reliable || level.size() / 2 >= fewest_blocks) {
+        level = block_means(level, 2);
+        const MeanError coarser = mean_error(level);
+        const bool larger =
+            coarser.squared_error > result.squared_error * (1.0 + significant_excess * coarser.relative_error);
+        if (!result.reliable || (coarser.reliable && larger)) result = coarser;
+    }
+    return result.squared_error;
+}
+
+Average without_error(Average average, std::string reason) {
+    average.no_error_reason = std::move(reason);
+    return average;
+}
+
+}  // namespace
+
+Average average(std::span<const double> series) {
+    Average result;
+    const auto n = static_cast<double>(series.size());
+    result.mean = series.empty() ? std::numeric_limits<double>::quiet_NaN() : mean_of(series);
+    if (series.empty()) return without_error(result, "The series has no rows.");
+    if (!std::all_of(series.begin(), series.end(), [](double value) { return std::isfinite(value); }))
+        return without_error(result, "The series contains a value that is not finite.");
+    double squares = 0.0;
+    for (double value : series) squares += (value - result.mean) * (value - result.mean);
+    result.standard_deviation = series.size() > 1 ? std::sqrt(squares / (n - 1.0)) : 0.0;
+    if (n < least_effective_samples)
+        return without_error(result,
+                             fmt::format("The series has only {} rows; at least {} independent ones are needed.", n,
+                                         least_effective_samples));
+    const auto [smallest, largest] = std::minmax_element(series.begin(), series.end());
+    const double rounding = 1e-14 * std::max(std::fabs(*smallest), std::fabs(*largest));
+    if (*largest - *smallest <= rounding) return without_error(result, "The series is constant.");
+
+    const double squared_error = squared_error_of_mean(series);
+    const double variance = squares / n + squared_error;  // the measured one is too small by that of the mean
+    const double inefficiency = std::max(1.0, n * squared_error / variance);
+    result.correlation_time = 0.5 * inefficiency;
+    result.effective_samples = n / inefficiency;
+    if (result.effective_samples < least_effective_samples)
+        return without_error(
+            result,
+            fmt::format("The {} rows are worth {:.1f} independent ones (correlation time {:.3g} rows); at least "
+                        "{} are needed.",
+                        n, result.effective_samples, result.correlation_time, least_effective_samples));
+    result.standard_error = std::sqrt(variance * inefficiency / n);
+    return result;
+}
+
+std::vector<double> block_means(std::span<const double> series, std::size_t block_length) {
+    if (block_length == 0) {
+        throw InputError({.key = "block_length",
+                          .value = "0",
+                          .problem = "a block must have rows",
+                          .allowed = ">= 1",
+                          .suggestion = "",
+                          .place = {}});
+    }
+    const std::size_t blocks = series.size() / block_length;
+    const std::size_t left_out = series.size() - blocks * block_length;
+    std::vector<double> means(blocks);
+    for (std::size_t k = 0; k < blocks; ++k)
+        means[k] = mean_of(series.subspan(left_out + k * block_length, block_length));
+    return means;
+}
+
+}  // namespace jostle

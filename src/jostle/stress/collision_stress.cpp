@@ -1,0 +1,57 @@
+#include "jostle/stress/collision_stress.hpp"
+
+#include "jostle/error/input_error.hpp"
+#include "jostle/parallel/parallel_for.hpp"
+#include "jostle/stress/spherocylinder_moments.hpp"
+
+namespace jostle {
+
+namespace {
+
+void require_rows(const char* key, std::size_t rows, std::size_t needed, const char* per) {
+    if (rows == needed) return;
+    throw InputError({.key = key,
+                      .value = std::to_string(rows) + " rows",
+                      .problem = std::string("must have one row a ") + per,
+                      .allowed = std::to_string(needed) + " rows",
+                      .suggestion = "",
+                      .place = {}});
+}
+
+}  // namespace
+
+Mat3 sum_of_pair_stresses(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
+                          std::span<const Vec3> torque, ContactDistance distance) {
+    return centre_of_mass_virial(contacts, gamma, rods, distance) + geometric_stress(rods, torque);
+}
+
+Mat3 centre_of_mass_virial(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
+                           ContactDistance distance) {
+    require_rows("gamma", gamma.size(), contacts.size(), "contact");
+    return parallel_sum<Mat3>(contacts.size(), [&](std::size_t l) {
+        const Contact& contact = contacts.contact[l];
+        const double radii = 0.5 * (rods.diameter[contact.i] + rods.diameter[contact.j]);
+        const double apart = distance == ContactDistance::touching ? radii : radii + contact.gap;
+        const Vec3 separation =
+            contact.arm_i * rods.axis[contact.i] + apart * contact.normal - contact.arm_j * rods.axis[contact.j];
+        return outer(separation, gamma[l] * contact.normal);
+    });
+}
+
+Mat3 geometric_stress(const Rods& rods, std::span<const Vec3> torque) {
+    require_rows("torque", torque.size(), rods.size(), "rod");
+    return parallel_sum<Mat3>(rods.size(), [&](std::size_t i) {
+        return geometric_stress_of_rod(rods.axis[i], rods.length[i], rods.diameter[i], torque[i]);
+    });
+}
+
+Mat3 geometric_stress_of_rod(const Vec3& axis, double length, double diameter, const Vec3& torque) {
+    const Vec3 turning = cross(torque, axis);
+    const double half_anisotropy = 0.5 * moment_anisotropy(length / diameter);
+    const Mat3 half_spin = Mat3{{0.0, 0.5 * torque.z, -0.5 * torque.y,  //
+                                 -0.5 * torque.z, 0.0, 0.5 * torque.x,  //
+                                 0.5 * torque.y, -0.5 * torque.x, 0.0}};
+    return half_spin + half_anisotropy * (outer(axis, turning) + outer(turning, axis));
+}
+
+}  // namespace jostle

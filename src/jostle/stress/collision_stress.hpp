@@ -1,0 +1,50 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "jostle/contact/contacts.hpp"
+#include "jostle/math/mat3.hpp"
+#include "jostle/rods/rods.hpp"
+
+// The collision stress of rods, with work proportional to the number of contacts and rods:
+//     V Sigma_col = sum over contacts of (r_j - r_i) F  +  sum over rods of s^G(net collision torque).
+// The geometric stress is linear in the torque on its body, so the sum over contacts of eq. (1.1) becomes a sum over
+// rods. All sums have the same bits for any number of threads.
+
+namespace jostle {
+
+/// At which distance of the two surfaces the moment of a contact force is taken.
+enum class ContactDistance {
+    touching,  ///< 0: where forces act; belongs to the corrected time step (theory, section 3)
+    at_start   ///< the gap that the step began with, as in the paper
+};
+
+/// Sum over contacts of the pair stress, V Sigma_col = centre_of_mass_virial + geometric_stress (theory, eq. 1.1).
+///
+/// `gamma`: one force a contact, >= 0. `torque` (N, 3): net collision torque about each rod's centre, that of D gamma.
+/// Throws InputError if a size is wrong.
+Mat3 sum_of_pair_stresses(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
+                          std::span<const Vec3> torque, ContactDistance distance = ContactDistance::touching);
+
+/// Sum over contacts of (r_j - r_i) F, with r_j - r_i = arm_i n_i + distance normal - arm_j n_j and F = gamma normal on
+/// rod j.
+///
+/// `gamma`: one force a contact. Throws InputError if their number is wrong.
+Mat3 centre_of_mass_virial(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
+                           ContactDistance distance = ContactDistance::touching);
+
+/// Sum over rods of the geometric stress under their net collision torques.
+///
+/// `torque` (N, 3) about the rods' centres. Throws InputError if their number is wrong.
+Mat3 geometric_stress(const Rods& rods, std::span<const Vec3> torque);
+
+/// Geometric stress of a rod with axis n under a torque T: (1/G_perp)[N_par n (T x n) - N_perp (T x n) n] for T across
+/// n.
+///
+/// Written with B = (N_par - N_perp)/G_perp and u = T x n as s^G_ij = (1/2) eps_ijk T_k + (B/2)(n u + u n)_ij: the
+/// same, and true also for T along n, and spheres. Traceless. `axis` (3) unit; `length` >= 0 and `diameter` > 0 are not
+/// checked.
+Mat3 geometric_stress_of_rod(const Vec3& axis, double length, double diameter, const Vec3& torque);
+
+}  // namespace jostle

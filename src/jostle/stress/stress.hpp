@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+
+#include "jostle/math/mat3.hpp"
+
+namespace jostle {
+
+/// The stress of an assembly, Sigma = n kT I + (1/V) sum sigma (theory, eq. 1.2); positive in compression; energy per
+/// volume.
+///
+/// Departure from the paper: it prints the collision part as a mean over the rods (an energy); it is a sum over the
+/// volume.
+struct Stress {
+    Mat3 kinetic;    ///< n kT I
+    Mat3 collision;  ///< (1/V) sum of the pair stresses; all 9 entries kept
+
+    Mat3 total() const { return kinetic + collision; }
+};
+
+/// Stress from the number density n = N/V, the temperature kT and the sum of the pair stresses in the volume V.
+///
+/// Throws InputError unless n >= 0, kT >= 0, V > 0, all finite.
+Stress assembly_stress(double number_density, double kT, const Mat3& sum_of_pair_stresses, double volume);
+
+/// Pi = Tr Sigma/3.
+double pressure(const Stress& stress);
+
+/// Pi_col = Tr Sigma_col/3, the part of the pressure from collisions.
+double pressure_collision(const Stress& stress);
+
+/// Z = Pi/(n kT) = 1 + Pi_col/(n kT). Throws InputError unless n kT > 0: without thermal motion there is no Z.
+double compressibility(const Stress& stress, double number_density, double kT);
+
+/// Eigenvalues of the symmetric part of a stress, ascending.
+std::array<double, 3> principal_stresses(const Mat3& stress);
+
+/// Largest over smallest principal stress; not a number unless the smallest is positive, for then the ratio means
+/// nothing.
+double anisotropy_ratio(const Mat3& stress);
+
+/// |Sigma - Sigma^T|/|Sigma| in the Frobenius norm; 0 for zero stress. At most 2.
+double relative_asymmetry(const Mat3& stress);
+
+}  // namespace jostle
