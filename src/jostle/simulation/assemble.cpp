@@ -1,0 +1,64 @@
+#include "jostle/simulation/assemble.hpp"
+
+#include <algorithm>
+
+#include "jostle/mobility/drag.hpp"
+#include "jostle/mobility/drag_mobility.hpp"
+#include "jostle/motion/brownian_motion.hpp"
+#include "jostle/motion/self_propulsion.hpp"
+
+namespace jostle {
+
+std::unique_ptr<Mobility> make_mobility(const Scene& scene, const Rods& rods) {
+    const bool slender = scene.mobility.model == MobilityModel::slender_body;
+    const double viscosity = scene.fluid.viscosity;
+    auto mobility = std::make_unique<DragMobility>([slender, viscosity](double length, double diameter) {
+        return slender ? slender_body_drag(length, diameter, viscosity)
+                       : finite_aspect_ratio_drag(length, diameter, viscosity);
+    });
+    mobility->update(rods);
+    return mobility;
+}
+
+double thermal_energy(const Scene& scene) {
+    return scene.motion.brownian ? scene.fluid.kT : 0.0;
+}
+
+double fastest_diffusion(double kT, const Mobility& mobility, std::size_t rod_count) {
+    double fastest = 0.0;
+    for (std::size_t i = 0; i < rod_count; ++i) {
+        const RodMobility rod = mobility.of_rod(i);
+        fastest = std::max(fastest, kT * (rod.parallel + 2.0 * rod.perpendicular) / 3.0);
+    }
+    return fastest;
+}
+
+double time_step(const Scene& scene, const Mobility& mobility, const Rods& rods) {
+    if (scene.time.step) return *scene.time.step;
+    const double length = *scene.time.rms_step * *std::min_element(rods.diameter.begin(), rods.diameter.end());
+    return length * length / (2.0 * fastest_diffusion(thermal_energy(scene), mobility, rods.size()));
+}
+
+Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock) {
+    auto mobility = make_mobility(scene, rods);
+    SimulationSettings settings;
+    settings.seed = scene.seed;
+    settings.kT = thermal_energy(scene);
+    settings.time_step = time_step(scene, *mobility, rods);
+    settings.brownian_correction = scene.contact.brownian_correction;
+    settings.range = scene.contact.range.value_or(0.0);
+    const bool paper = scene.solver.residual == ResidualKind::paper;
+    settings.lcp.residual = paper ? LcpResidual::paper : LcpResidual::length;
+    settings.lcp.tolerance = paper ? scene.solver.tolerance : scene.solver.tolerance * scene.rods.diameter;
+    settings.lcp.max_iterations = scene.solver.max_iterations;
+    settings.lcp.step_rule = scene.solver.step_rule == StepRule::bb1   ? BarzilaiBorwein::bb1
+                             : scene.solver.step_rule == StepRule::bb2 ? BarzilaiBorwein::bb2
+                                                                       : BarzilaiBorwein::alternating;
+    std::vector<std::unique_ptr<Motion>> motions;
+    if (settings.kT > 0.0) motions.push_back(std::make_unique<BrownianMotion>(settings.kT, *mobility));
+    if (scene.motion.self_propulsion != 0.0)
+        motions.push_back(std::make_unique<SelfPropulsion>(scene.motion.self_propulsion));
+    return Simulation(box, std::move(rods), clock, std::move(mobility), std::move(motions), settings);
+}
+
+}  // namespace jostle

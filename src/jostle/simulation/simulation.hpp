@@ -1,0 +1,84 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "jostle/contact/contacts.hpp"
+#include "jostle/contact/neighbour_list.hpp"
+#include "jostle/mobility/mobility.hpp"
+#include "jostle/motion/motion.hpp"
+#include "jostle/rods/box.hpp"
+#include "jostle/simulation/step_report.hpp"
+
+namespace jostle {
+
+/// Where the simulation stands: with the rods, all that the next step depends on.
+struct Clock {
+    std::uint64_t step = 0;
+    double time = 0.0;
+};
+
+struct SimulationSettings {
+    std::uint64_t seed = 1;
+    double time_step = 0.0;
+    double kT = 0.0;                  ///< of the Brownian motion; 0 where there is none
+    bool brownian_correction = true;  ///< shift and true gap (theory, eq. 3.3), moments of the stress at touching
+    double range = 0.0;               ///< contacts with a smaller gap are always taken; 0: as the step demands
+    LcpSettings lcp;                  ///< tolerance as a length
+};
+
+/// The contact forces of the last step.
+struct ContactSolution {
+    std::vector<double> gamma;  ///< per contact, >= 0
+    Forces forces;              ///< D gamma, per rod
+    Velocities velocities;      ///< M D gamma, per rod
+};
+
+/// Rods in a box, and the step that moves them.
+///
+/// State (rods, clock) is apart from settings and results: a simulation made from the state of another goes on bit for
+/// bit as that one would have, for any number of threads. Neighbour list and contacts are only a cache.
+class Simulation {
+public:
+    Simulation(Box box, Rods rods, Clock clock, std::unique_ptr<Mobility> mobility,
+               std::vector<std::unique_ptr<Motion>> motions, const SimulationSettings& settings);
+
+    /// Makes one step (step.cpp). Where contacts cannot be resolved the report says so, and rods and clock stay as they
+    /// were.
+    StepReport step();
+
+    const Rods& rods() const { return rods_; }
+    const Box& box() const { return box_; }
+    const Clock& clock() const { return clock_; }
+    const Mobility& mobility() const { return *mobility_; }
+    const SimulationSettings& settings() const { return settings_; }
+
+    /// Of the last step, with the gaps before it.
+    const Contacts& contacts() const { return contacts_; }
+    const ContactSolution& contact_solution() const { return solution_; }
+
+private:
+    void find_known_velocity();
+    void find_contacts(StepReport& report);
+    void solve_contacts(StepReport& report);
+    bool all_collisions_seen();
+    void measure_stress(StepReport& report) const;
+    void advance();
+    std::vector<double> gap_velocities_without_forces(std::span<const double> diagonal) const;
+
+    Box box_;
+    Rods rods_;
+    Clock clock_;
+    std::unique_ptr<Mobility> mobility_;
+    std::vector<std::unique_ptr<Motion>> motions_;
+    SimulationSettings settings_;
+
+    std::vector<double> shift_reach_;  ///< (N) upper bound of each rod's part in the shift of a gap
+    NeighbourList neighbours_;
+    std::vector<double> reach_;  ///< (N) how far each rod may come towards others in this step
+    Velocities known_;           ///< U_known
+    Contacts contacts_;
+    ContactSolution solution_;
+};
+
+}  // namespace jostle

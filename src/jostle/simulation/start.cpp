@@ -1,0 +1,153 @@
+#include "jostle/simulation/start.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "jostle/error/input_error.hpp"
+#include "jostle/math/random.hpp"
+#include "jostle/mobility/drag_mobility.hpp"
+#include "jostle/simulation/largest_overlap.hpp"
+#include "jostle/simulation/push_apart.hpp"
+
+namespace jostle {
+
+namespace {
+
+/// Overlaps below this (in D) in a start read from a file are taken for rounding of the file's decimals.
+constexpr double file_overlap = 1e-3;
+
+Vec3 random_axis(const RandomKey& key) {
+    const auto u = uniform4(key, 1);
+    const double z = 2.0 * u[0] - 1.0;
+    const double radius = std::sqrt(1.0 - z * z), angle = 2.0 * std::numbers::pi * u[1];
+    return normalised({radius * std::cos(angle), radius * std::sin(angle), z});
+}
+
+/// A mobility only for pushing apart: unit drag, and the rotation that a thin rod of that drag would have, or none.
+DragMobility pushing_mobility(bool turning) {
+    return DragMobility([turning](double length, double diameter) {
+        return RodMobility{1.0, 1.0, turning ? 12.0 / (length * length + diameter * diameter) : 0.0};
+    });
+}
+
+Rods pushed_apart(Rods rods, const Box& box, bool turning, const Scene& scene) {
+    DragMobility mobility = pushing_mobility(turning);
+    const PushApartResult result = push_apart(rods, box, mobility);
+    if (!result.apart) {
+        throw InputError(
+            {.key = "rods.start",
+             .value = turning ? "\"random\"" : "\"aligned\"",
+             .problem = fmt::format("{} rods of length {} at volume fraction {:.4f} could not be placed without "
+                                    "overlap: after {} rounds of pushing apart {:.3g} D are left",
+                                    rods.size(), scene.rods.length, total_volume(rods) / box.volume(), result.rounds,
+                                    result.overlap / scene.rods.diameter),
+             .suggestion = "Use a lower volume fraction, a roomier box, or start = \"aligned\" or \"lattice\""});
+    }
+    rods.image.assign(rods.size(), Image{0, 0, 0});
+    return rods;
+}
+
+Rods scattered(const Scene& scene, const Box& box, const std::optional<Vec3>& common_axis) {
+    Rods rods;
+    for (std::uint64_t id = 0; id < scene.rods.count; ++id) {
+        const RandomKey key{scene.seed, 0, Stream::start, id};
+        const auto u = uniform4(key, 0);
+        const Vec3 centre{u[0] * box.edges.x, u[1] * box.edges.y, u[2] * box.edges.z};
+        rods.push_back(id, centre, common_axis ? *common_axis : random_axis(key), scene.rods.length,
+                       scene.rods.diameter);
+    }
+    return rods;
+}
+
+/// Sites along the rods (direction 0) and across (1, 2).
+struct Grid {
+    std::array<std::uint64_t, 3> sites{};
+    double tightness = INFINITY;  ///< the largest of size/spacing over the directions; 1 means touching
+};
+
+/// The grid with at least `count` sites that leaves the most room in its tightest direction.
+Grid roomiest_grid(std::uint64_t count, const std::array<double, 3>& edges, const std::array<double, 3>& size) {
+    Grid best;
+    const auto most = [&](std::size_t k) { return static_cast<std::uint64_t>(std::max(1.0, edges[k] / size[k])); };
+    for (std::uint64_t across = 1; across <= most(1); ++across) {
+        for (std::uint64_t along = 1; along <= most(0); ++along) {
+            const std::uint64_t rest = (count + across * along - 1) / (across * along);
+            Grid grid{{along, across, rest}, 0.0};
+            for (std::size_t k = 0; k < 3; ++k)
+                grid.tightness = std::max(grid.tightness, static_cast<double>(grid.sites[k]) * size[k] / edges[k]);
+            if (grid.tightness < best.tightness) best = grid;
+        }
+    }
+    return best;
+}
+
+Rods lattice(const Scene& scene, const Box& box) {
+    const Vec3 axis = normalised(scene.rods.axis);
+    const int along = std::fabs(axis.x) > 0.5 ? 0 : (std::fabs(axis.y) > 0.5 ? 1 : 2);
+    if (std::fabs(axis[along]) < 1.0 - 1e-12)
+        throw InputError({.key = "rods.axis",
+                          .value = fmt::format("[{}, {}, {}]", axis.x, axis.y, axis.z),
+                          .problem = "a lattice needs its rods along an edge of the box",
+                          .allowed = "[1, 0, 0], [0, 1, 0] or [0, 0, 1]",
+                          .suggestion = "For another direction use start = \"aligned\""});
+    const std::array<int, 3> direction = {along, (along + 1) % 3, (along + 2) % 3};
+    const double D = scene.rods.diameter;
+    std::array<double, 3> edges{};
+    for (std::size_t k = 0; k < 3; ++k) edges[k] = box.edges[direction[k]];
+    const Grid grid = roomiest_grid(scene.rods.count, edges, {scene.rods.length + D, D, D});
+    if (grid.tightness > 1.0)
+        throw InputError(
+            {.key = "rods.start",
+             .value = "\"lattice\"",
+             .problem = fmt::format("{} rods do not fit into the box in rows: the best grid, {} x {} x {}, would "
+                                    "need edges {:.4g} times longer",
+                                    scene.rods.count, grid.sites[0], grid.sites[1], grid.sites[2], grid.tightness),
+             .suggestion = "Use a lower volume fraction or another box.shape"});
+    Rods rods;
+    const std::uint64_t sites = grid.sites[0] * grid.sites[1] * grid.sites[2];
+    for (std::uint64_t id = 0; id < scene.rods.count; ++id) {
+        // Vacant sites, if any, lie evenly among the others.
+        const auto site = static_cast<std::uint64_t>(static_cast<double>(id) * static_cast<double>(sites) /
+                                                     static_cast<double>(scene.rods.count));
+        const std::array<std::uint64_t, 3> cell = {site / (grid.sites[2] * grid.sites[1]),
+                                                   site / grid.sites[2] % grid.sites[1], site % grid.sites[2]};
+        Vec3 centre;
+        for (std::size_t k = 0; k < 3; ++k)
+            centre[direction[k]] = (static_cast<double>(cell[k]) + 0.5) * edges[k] / static_cast<double>(grid.sites[k]);
+        rods.push_back(id, centre, axis, scene.rods.length, D);
+    }
+    return rods;
+}
+
+Rods checked(Rods rods, const Box& box, const Scene& scene) {
+    for (std::size_t i = 0; i < rods.size(); ++i) box.wrap(rods.centre[i], rods.image[i]);
+    rods.image.assign(rods.size(), Image{0, 0, 0});
+    const double overlap = largest_overlap(rods, box);
+    const double allowed = file_overlap * scene.rods.diameter;
+    if (overlap > allowed)
+        throw InputError({.key = "rods.file",
+                          .value = "\"" + scene.rods.file + "\"",
+                          .problem = fmt::format("rods of this file overlap by up to {:.3g}", overlap),
+                          .allowed = fmt::format("overlaps up to {:.3g}", allowed)});
+    return rods;
+}
+
+}  // namespace
+
+Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& from_file) {
+    switch (scene.rods.start) {
+        case StartKind::random:
+            return pushed_apart(scattered(scene, box, std::nullopt), box, true, scene);
+        case StartKind::aligned:
+            return pushed_apart(scattered(scene, box, normalised(scene.rods.axis)), box, false, scene);
+        case StartKind::lattice:
+            return lattice(scene, box);
+        case StartKind::file:
+            return checked(from_file.value(), box, scene);
+    }
+    return {};
+}
+
+}  // namespace jostle

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+
+#include "jostle/rods/box.hpp"
+#include "jostle/simulation/scene.hpp"
+
+namespace jostle {
+
+/// The rods of a scene before the first step, with ids 0, 1, 2, ...; a pure function of the scene (seed included).
+///
+/// "random":  centres and axes uniform, overlaps pushed apart by contact forces;
+/// "aligned": centres uniform, all axes along `rods.axis`, pushed apart without turning;
+/// "lattice": rows of rods along `rods.axis` (a direction of the box), evenly spaced;
+/// "file":    `from_file`, checked for overlaps.
+/// Throws InputError where the rods do not fit.
+Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& from_file = std::nullopt);
+
+}  // namespace jostle

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "jostle/lcp/lcp_problem.hpp"
+#include "jostle/math/mat3.hpp"
+
+namespace jostle {
+
+/// The parts of a step, in their order: the names of the timers, of the benchmark's columns and of the theory's
+/// sections.
+enum class StepPhase { known_velocity, find_contacts, solve_contacts, measure_stress, advance };
+inline constexpr std::size_t step_phase_count = 5;
+inline constexpr std::array<const char*, step_phase_count> step_phase_names = {
+    "known_velocity", "find_contacts", "solve_contacts", "measure_stress", "advance"};
+
+/// What happened in one step; the results, apart from the state that the step left.
+struct StepReport {
+    std::uint64_t step = 0;                   ///< number of the step; its forces act from `time` to `time` + dt
+    double time = 0.0;                        ///< when it began
+    LcpStatus status = LcpStatus::converged;  ///< if not converged, the rods have not been moved
+    double residual = 0.0;         ///< of the contact problem, in the chosen measure (a length, or the paper's norm)
+    std::uint64_t iterations = 0;  ///< applications of A
+    std::uint64_t solves = 0;      ///< 1, or more where collisions reached beyond the first set of contacts
+    std::size_t contacts = 0;
+    std::size_t active_contacts = 0;  ///< with gamma > 0
+    double max_overlap = 0.0;         ///< largest overlap of the rods when the step began, a length
+    Mat3 collision_virial;            ///< sum over contacts of theory, eq. (1.1): V times the collision stress
+    std::array<double, step_phase_count> seconds{};
+};
+
+}  // namespace jostle

@@ -1,0 +1,280 @@
+#include "jostle/simulation/validate_scene.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+#include <type_traits>
+
+#include "jostle/error/input_error.hpp"
+#include "jostle/rods/rods.hpp"
+#include "jostle/simulation/scene_keys.hpp"
+
+namespace jostle {
+
+namespace {
+
+constexpr double largest_step_number = 1e15;  // counts of steps stay exact as double
+
+[[noreturn]] void refuse(std::string key, std::string value, std::string problem, std::string allowed,
+                         std::string suggestion) {
+    throw InputError(
+        {std::move(key), std::move(value), std::move(problem), std::move(allowed), std::move(suggestion), {}});
+}
+
+std::string text(double value) {
+    return fmt::format("{}", value);
+}
+std::string text(const Vec3& value) {
+    return fmt::format("[{}, {}, {}]", value.x, value.y, value.z);
+}
+std::string rounded(double value) {
+    return fmt::format("{:.4g}", value);
+}
+
+/// The range in words; the bounds that only keep products finite are named when the value breaks them.
+std::string describe(const Range& range, double value) {
+    const bool finite = std::isfinite(value);
+    std::string words;
+    if (range.lower == Range::smallest && !(value > 0.0 && value < range.lower))
+        words = "greater than 0";
+    else if (range.lower > -Range::largest || (finite && value < range.lower))
+        words = fmt::format("{} {}", range.lower_included ? "at least" : "greater than", range.lower);
+    if (range.upper < Range::largest || (finite && value > range.upper))
+        words += fmt::format("{}{} {}", words.empty() ? "" : " and ", range.upper_included ? "at most" : "less than",
+                             range.upper);
+    return words.empty() ? "a finite number" : words;
+}
+
+/// Range check of one key, by the type of its member.
+struct RangeCheck {
+    std::string key;
+
+    void check(double value, const Range& range) const {
+        if (range.contains(value)) return;
+        const char* problem = "is outside the allowed range";
+        if (!std::isfinite(value))
+            problem = "is not a finite number";
+        else if (value < 0.0 && range.lower >= 0.0)
+            problem = "is negative";
+        else if (value == 0.0)
+            problem = "is zero";
+        refuse(key, text(value), problem, describe(range, value), "");
+    }
+
+    void operator()(double value, const Quantity& quantity) const { check(value, quantity.range); }
+    void operator()(const std::optional<double>& value, const Quantity& quantity) const {
+        if (value) check(*value, quantity.range);
+    }
+    void operator()(const Vec3& value, const Quantity& quantity) const {
+        for (int k = 0; k < 3; ++k) check(value[k], quantity.range);
+    }
+    void operator()(const std::optional<Vec3>& value, const Quantity& quantity) const {
+        if (value) (*this)(*value, quantity);
+    }
+    void operator()(std::uint64_t value, const Count& count) const {
+        if (value >= count.lower && value <= count.upper) return;
+        refuse(key, std::to_string(value), "is outside the allowed range",
+               value < count.lower ? fmt::format("at least {}", count.lower) : fmt::format("at most {}", count.upper),
+               "");
+    }
+    template <class Member>
+    void operator()(const Member&, const Plain&) const {}
+};
+
+void check_ranges(const Scene& scene) {
+    const std::vector<UnusedKey> unused = unused_keys(scene);
+    for_each_key(scene, [&](std::string_view table, std::string_view name, const auto& member, const auto& spec) {
+        const std::string key = full_key(table, name);
+        if (std::any_of(unused.begin(), unused.end(), [&](const UnusedKey& entry) { return entry.key == key; })) return;
+        RangeCheck{key}(member, spec);
+    });
+}
+
+/// Values given for keys that mean nothing here; the reader sees also those that equal the default.
+void check_unused(const Scene& scene) {
+    const Scene defaults;
+    for (const UnusedKey& unused : unused_keys(scene)) {
+        std::string value;
+        if (unused.key == "rods.file") value = scene.rods.file;
+        if (unused.key == "rods.axis" && !(scene.rods.axis == defaults.rods.axis)) value = text(scene.rods.axis);
+        if (unused.key == "box.shape" && !(scene.box.shape == defaults.box.shape)) value = text(scene.box.shape);
+        if (!value.empty()) refuse(unused.key, value, unused.reason, "", unused.suggestion);
+    }
+}
+
+void check_start(const Scene& scene) {
+    if (scene.rods.start == StartKind::file && scene.rods.file.empty())
+        refuse("rods.file", "", "is missing: start = \"file\" reads the rods from a file", "the name of a file",
+               "Add file = \"rods.csv\" under [rods]");
+    if (norm(scene.rods.axis) == 0.0)
+        refuse("rods.axis", text(scene.rods.axis), "has no direction", "a vector that is not zero", "Use [1, 0, 0]");
+}
+
+void check_box_given_once(const Scene& scene) {
+    if (scene.box.volume_fraction && scene.box.edges)
+        refuse("box.edges", text(*scene.box.edges),
+               fmt::format("is given beside box.volume_fraction = {}", *scene.box.volume_fraction),
+               "one of the two, not both", "Keep one of them; the other follows from it");
+    if (!scene.box.volume_fraction && !scene.box.edges)
+        refuse("box.volume_fraction", "", "is missing, and so is box.edges: the size of the box is not known",
+               "one of the two", "Add volume_fraction = 0.2 under [box]");
+}
+
+void check_packing(const Scene& scene) {
+    const double fraction = volume_fraction(scene);
+    const double aspect_ratio = scene.rods.length / scene.rods.diameter;
+    const bool given = scene.box.volume_fraction.has_value();
+    const std::string key = given ? "box.volume_fraction" : "box.edges";
+    const std::string value = given ? text(fraction) : text(*scene.box.edges);
+    const std::string volume = given ? "" : fmt::format(" (volume fraction {})", rounded(fraction));
+    const double densest = close_packing(aspect_ratio);
+    if (!(fraction <= densest * (1.0 + 1e-12)))  // edges computed for close packing miss it by rounding
+        refuse(key, value,
+               fmt::format("cannot be packed{}: the densest packing of rods of L/D = {} fills {}", volume,
+                           rounded(aspect_ratio), rounded(densest)),
+               fmt::format("a volume fraction of at most {}", rounded(densest)),
+               given ? "Lower the volume fraction" : "Enlarge the box or use fewer rods");
+    const double limit = random_start_limit(aspect_ratio);
+    if (scene.rods.start == StartKind::random && fraction > limit)
+        refuse(key, value,
+               fmt::format("is too dense for a random start{} with rods of L/D = {}", volume, rounded(aspect_ratio)),
+               fmt::format("a volume fraction of at most {}", rounded(limit)),
+               "Use start = \"aligned\" or \"lattice\", or a lower volume fraction");
+}
+
+void check_mobility(const Scene& scene) {
+    // b = 2 ln(2 L/D) - 1 > 0, PHYSICS section 2: below, the drag across and along the axis is negative
+    const double limit = std::exp(0.5) / 2.0;
+    const double aspect_ratio = scene.rods.length / scene.rods.diameter;
+    if (scene.mobility.model == MobilityModel::slender_body && !(aspect_ratio > limit))
+        refuse("mobility.model", "\"slender_body\"",
+               fmt::format("gives rods of L/D = {} a negative drag: it holds for slender rods only",
+                           rounded(aspect_ratio)),
+               fmt::format("L/D greater than {:.3f}", limit),
+               "Use model = \"finite_aspect_ratio\", which holds for every L/D");
+}
+
+void check_solver(const Scene& scene) {
+    if (scene.solver.residual == ResidualKind::length && scene.solver.tolerance >= scene.contact.overlap_limit)
+        refuse("contact.overlap_limit", text(scene.contact.overlap_limit),
+               fmt::format("is not larger than the overlap that the solver leaves, solver.tolerance = {}",
+                           scene.solver.tolerance),
+               fmt::format("greater than {}", scene.solver.tolerance), "Lower solver.tolerance");
+}
+
+void check_rms_step(const Scene& scene) {
+    if (!scene.time.rms_step) return;
+    const char* reason = !scene.motion.brownian ? "motion.brownian = false" : "fluid.kT = 0";
+    if (!scene.motion.brownian || scene.fluid.kT == 0.0)
+        refuse("time.rms_step", text(*scene.time.rms_step),
+               fmt::format("measures the step by the Brownian motion, and there is none: {}", reason), "",
+               "Give time.step instead");
+}
+
+void check_time(const Scene& scene) {
+    if (scene.time.step && scene.time.rms_step)
+        refuse("time.rms_step", text(*scene.time.rms_step),
+               fmt::format("is given beside time.step = {}", *scene.time.step), "one of the two, not both",
+               "Keep one of them");
+    if (!scene.time.step && !scene.time.rms_step)
+        refuse("time.step", "", "is missing, and so is time.rms_step: the time step is not known", "one of the two",
+               "Add step = 1e-3 under [time]");
+    check_rms_step(scene);
+    if (!scene.time.step) return;
+    const double step = *scene.time.step;
+    if (scene.time.production < step)
+        refuse("time.production", text(scene.time.production), "is shorter than one step",
+               fmt::format("at least time.step = {}", step), "");
+    const bool long_production = scene.time.production / step > largest_step_number;
+    if (long_production || scene.time.equilibration.value_or(0.0) / step > largest_step_number)
+        refuse(long_production ? "time.production" : "time.equilibration",
+               text(long_production ? scene.time.production : *scene.time.equilibration),
+               fmt::format("takes more than {:g} steps of time.step = {}", largest_step_number, step),
+               fmt::format("at most {:g} steps", largest_step_number), "Use a longer step or a shorter time");
+}
+
+}  // namespace
+
+void validate(const Scene& scene) {
+    check_unused(scene);
+    check_ranges(scene);
+    check_start(scene);
+    check_box_given_once(scene);
+    if (scene.rods.start != StartKind::file) {
+        check_packing(scene);
+        validate_box(scene, rods_volume(scene), scene.rods.diameter);
+    }
+    check_mobility(scene);
+    check_solver(scene);
+    check_time(scene);
+}
+
+void validate_box(const Scene& scene, double rods_volume, double largest_diameter) {
+    const Vec3 edges = box_edges(scene, rods_volume);
+    const bool given = scene.box.edges.has_value();
+    const std::string key = given ? "box.edges" : "box.volume_fraction";
+    const std::string value = text(given ? 0.0 : *scene.box.volume_fraction);
+    for (int k = 0; k < 3; ++k) {
+        if (edges[k] >= largest_diameter) continue;
+        refuse(key, given ? text(edges) : value,
+               fmt::format("makes the box thinner than a rod's diameter: edge {} is {}", "xyz"[k], rounded(edges[k])),
+               fmt::format("edges of at least {}", largest_diameter),
+               given ? "Enlarge that edge" : "Use more rods, a lower volume fraction or a box.shape nearer to a cube");
+    }
+    const double fraction = volume_fraction(scene, rods_volume);
+    if (!(fraction < 1.0))
+        refuse(key, given ? text(edges) : value,
+               fmt::format("leaves the rods no room: their volume is {} times that of the box", rounded(fraction)),
+               "a volume fraction less than 1", "Enlarge the box or use fewer rods");
+}
+
+double rods_volume(const Scene& scene) {
+    return static_cast<double>(scene.rods.count) * rod_volume(scene.rods.length, scene.rods.diameter);
+}
+
+Vec3 box_edges(const Scene& scene, double rods_volume) {
+    if (scene.box.edges) return *scene.box.edges;
+    const Vec3& shape = scene.box.shape;
+    const double volume = rods_volume / scene.box.volume_fraction.value();
+    return std::cbrt(volume / (shape.x * shape.y * shape.z)) * shape;
+}
+
+double volume_fraction(const Scene& scene, double rods_volume) {
+    if (scene.box.volume_fraction) return *scene.box.volume_fraction;
+    const Vec3& edges = scene.box.edges.value();
+    return rods_volume / (edges.x * edges.y * edges.z);
+}
+
+Vec3 box_edges(const Scene& scene) {
+    return box_edges(scene, rods_volume(scene));
+}
+double volume_fraction(const Scene& scene) {
+    return volume_fraction(scene, rods_volume(scene));
+}
+
+double close_packing(double aspect_ratio) {
+    return rod_volume(aspect_ratio, 1.0) * 2.0 / (std::numbers::sqrt2 + aspect_ratio * std::numbers::sqrt3);
+}
+
+double random_start_limit(double aspect_ratio) {
+    return std::min(0.60 / (1.0 + aspect_ratio / 15.0), 4.5 / std::max(aspect_ratio, 1.0));
+}
+
+std::vector<UnusedKey> unused_keys(const Scene& scene) {
+    std::vector<UnusedKey> unused;
+    const StartKind start = scene.rods.start;
+    const std::string with = fmt::format("is not used with rods.start = \"{}\"", word_of(start));
+    if (scene.box.edges)
+        unused.push_back({"box.shape", "is not used with box.edges, which give the shape", "Remove shape or edges"});
+    if (start != StartKind::file) unused.push_back({"rods.file", with, "Set start = \"file\", or remove file"});
+    if (start != StartKind::aligned && start != StartKind::lattice)
+        unused.push_back({"rods.axis", with, "Set start = \"aligned\", or remove axis"});
+    if (start == StartKind::file && scene.rods.count == 0)
+        unused.push_back({"rods.count", with + ": the file tells", "Remove count"});
+    return unused;
+}
+
+}  // namespace jostle
