@@ -1,0 +1,193 @@
+#include "jostle/io/checkpoint.hpp"
+
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+
+#include "jostle/io/byte_buffer.hpp"
+#include "jostle/io/checksum.hpp"
+#include "jostle/io/durable_file.hpp"
+
+namespace jostle {
+namespace {
+
+// The first byte is no text and the last is a newline, so that a file mangled as text no longer matches.
+constexpr std::string_view magic = "\x89JOSTLE\n";
+constexpr std::uint32_t format_version = 1;
+constexpr std::size_t header_bytes = 24;
+constexpr std::size_t checksum_bytes = 8;
+constexpr const char* start_again = "Start the run again with --fresh";
+
+void put_rods(ByteWriter& writer, const Rods& rods) {
+    writer.put(static_cast<std::uint64_t>(rods.size()));
+    writer.put_elements(rods.centre);
+    writer.put_elements(rods.axis);
+    writer.put_elements(rods.length);
+    writer.put_elements(rods.diameter);
+    writer.put_elements(rods.id);
+    writer.put_elements(rods.image);
+}
+
+Rods take_rods(ByteReader& reader) {
+    Rods rods;
+    const auto count = reader.take<std::uint64_t>();
+    reader.take_elements(count, rods.centre);
+    reader.take_elements(count, rods.axis);
+    reader.take_elements(count, rods.length);
+    reader.take_elements(count, rods.diameter);
+    reader.take_elements(count, rods.id);
+    reader.take_elements(count, rods.image);
+    return rods;
+}
+
+std::string payload_of(const Checkpoint& checkpoint) {
+    ByteWriter writer;
+    writer.put_text(checkpoint.scene);
+    writer.put(checkpoint.step);
+    writer.put(checkpoint.time);
+    writer.put(checkpoint.box.edges);
+    for (const bool periodic : checkpoint.box.periodic) writer.put(static_cast<std::uint8_t>(periodic));
+    put_rods(writer, checkpoint.rods);
+    writer.put(static_cast<std::uint64_t>(checkpoint.accumulators.size()));
+    writer.put_elements(checkpoint.accumulators);
+    writer.put(checkpoint.series_rows);
+    writer.put(checkpoint.series_bytes);
+    writer.put(checkpoint.series_hash);
+    writer.put(checkpoint.trajectory_bytes);
+    writer.put(checkpoint.contacts_bytes);
+    writer.put(checkpoint.contacts_hash);
+    return writer.bytes();
+}
+
+Checkpoint from_payload(std::string_view payload) {
+    ByteReader reader(payload);
+    Checkpoint checkpoint;
+    checkpoint.scene = reader.take_text();
+    checkpoint.step = reader.take<std::uint64_t>();
+    checkpoint.time = reader.take<double>();
+    checkpoint.box.edges = reader.take<Vec3>();
+    for (bool& periodic : checkpoint.box.periodic) periodic = reader.take<std::uint8_t>() != 0;
+    checkpoint.rods = take_rods(reader);
+    const auto accumulator_count = reader.take<std::uint64_t>();
+    reader.take_elements(accumulator_count, checkpoint.accumulators);
+    checkpoint.series_rows = reader.take<std::uint64_t>();
+    checkpoint.series_bytes = reader.take<std::uint64_t>();
+    checkpoint.series_hash = reader.take<std::uint64_t>();
+    checkpoint.trajectory_bytes = reader.take<std::uint64_t>();
+    checkpoint.contacts_bytes = reader.take<std::uint64_t>();
+    checkpoint.contacts_hash = reader.take<std::uint64_t>();
+    if (!reader.empty()) throw std::out_of_range("bytes are left over");
+    return checkpoint;
+}
+
+/// The payload of a file whose frame (magic, length, checksum, version) is sound.
+std::string_view verified_payload(const std::string& path, std::string_view file) {
+    if (file.size() < magic.size() ? !magic.starts_with(file) : !file.starts_with(magic))
+        throw refused_file(path, "is not a checkpoint of jostle: it does not begin with the right 8 bytes",
+                           start_again);
+    const std::string size = std::to_string(file.size()) + " bytes";
+    if (file.size() < header_bytes + checksum_bytes)
+        throw refused_file(path, "the checkpoint is truncated: it has " + size + ", fewer than an empty one",
+                           start_again);
+
+    ByteReader header(file.substr(magic.size()));
+    const auto version = header.take<std::uint32_t>();
+    header.take<std::uint32_t>();
+    const auto payload_bytes = header.take<std::uint64_t>();
+    const auto stored = ByteReader(file.substr(file.size() - checksum_bytes)).take<std::uint64_t>();
+    // The checksum comes before the version: a flipped bit in the version is damage, not another version.
+    const bool sound = stored == checksum(file.substr(0, file.size() - checksum_bytes));
+    if (sound && version != format_version)
+        throw refused_file(path,
+                           "the checkpoint has format version " + std::to_string(version) +
+                               ", this jostle reads version " + std::to_string(format_version),
+                           "Go on with the jostle that wrote it, or start the run again with --fresh");
+    if (file.size() - header_bytes - checksum_bytes < payload_bytes)
+        throw refused_file(path,
+                           "the checkpoint is truncated: it has " + size + ", its header says " +
+                               std::to_string(payload_bytes) + " and " + std::to_string(header_bytes + checksum_bytes),
+                           start_again);
+    if (!sound || file.size() - header_bytes - checksum_bytes != payload_bytes)
+        throw refused_file(path, "the checkpoint is damaged: its checksum does not match its " + size, start_again);
+    return file.substr(header_bytes, payload_bytes);
+}
+
+/// What to do about a damaged FOLDER/checkpoint, which depends on the one before.
+std::string way_out(const std::string& path, const std::string& previous) {
+    if (!file_exists(previous)) return start_again;
+    try {
+        const std::uint64_t step = read_checkpoint(previous).step;
+        return "The one before it, " + previous + " (step " + std::to_string(step) + "), is sound: remove " + path +
+               " to go on from there, or start again with --fresh";
+    } catch (const InputError&) {
+        return "The one before it, " + previous + ", is no better: start the run again with --fresh";
+    }
+}
+
+}  // namespace
+
+void write_checkpoint(const std::string& folder, const Checkpoint& checkpoint) {
+    const std::string payload = payload_of(checkpoint);
+    ByteWriter header;
+    header.put(format_version);
+    header.put(std::uint32_t{0});
+    header.put(static_cast<std::uint64_t>(payload.size()));
+    std::string file = std::string(magic) + header.bytes() + payload;
+    ByteWriter footer;
+    footer.put(checksum(file));
+    file += footer.bytes();
+
+    const std::string path = folder + "/checkpoint";
+    const std::string temporary = path + ".tmp";
+    try {
+        write_synced_file(temporary, file);
+        if (file_exists(path)) rename_file(path, path + ".previous");
+        rename_file(temporary, path);
+    } catch (...) {
+        remove_file_if_present(temporary);
+        throw;
+    }
+    sync_folder(folder);
+}
+
+Checkpoint read_checkpoint(const std::string& path) {
+    const std::string file = read_file(path);
+    const std::string_view payload = verified_payload(path, file);
+    try {
+        return from_payload(payload);
+    } catch (const std::out_of_range& problem) {
+        throw refused_file(path, std::string("the checkpoint is damaged: ") + problem.what(), start_again);
+    }
+}
+
+std::optional<Checkpoint> latest_checkpoint(const std::string& folder) {
+    const std::string path = folder + "/checkpoint";
+    const std::string previous = path + ".previous";
+    if (!file_exists(path)) {
+        if (!file_exists(previous)) return std::nullopt;
+        return read_checkpoint(previous);
+    }
+    try {
+        return read_checkpoint(path);
+    } catch (const InputError& error) {
+        throw refused_file(path, error.parts().problem, way_out(path, previous));
+    }
+}
+
+void require_same_scene(const Checkpoint& checkpoint, const std::string& scene, const std::string& folder) {
+    if (checkpoint.scene == scene) return;
+    std::istringstream before(checkpoint.scene), now(scene);
+    std::string line_before, line_now;
+    int line = 0;
+    do {
+        ++line;
+        if (!std::getline(before, line_before)) line_before = "(nothing)";
+        if (!std::getline(now, line_now)) line_now = "(nothing)";
+    } while (line_before == line_now && (before || now));
+    throw refused_file(folder + "/checkpoint",
+                       "the checkpoint is of another scene: line " + std::to_string(line) +
+                           " of the resolved scene was \"" + line_before + "\" and is \"" + line_now + "\"",
+                       "Restore the scene, give another folder with --out, or start again with --fresh");
+}
+
+}  // namespace jostle

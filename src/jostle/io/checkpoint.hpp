@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "jostle/rods/box.hpp"
+#include "jostle/rods/rods.hpp"
+
+namespace jostle {
+
+/// Everything that a run needs to go on as if it had never stopped: the state, and how far its files had come.
+struct Checkpoint {
+    std::string scene;                   ///< resolved scene text; the same text is needed to go on
+    std::uint64_t step = 0;              ///< steps done
+    double time = 0.0;                   ///< simulated time
+    Box box;                             ///< at that time
+    Rods rods;                           ///< at that time, double precision
+    std::vector<double> accumulators;    ///< running sums of the run; their order is the simulation's own
+    std::uint64_t series_rows = 0;       ///< rows of series.csv, without the header
+    std::uint64_t series_bytes = 0;      ///< length of series.csv, with the header
+    std::uint64_t series_hash = 0;       ///< checksum of these bytes
+    std::uint64_t trajectory_bytes = 0;  ///< length of trajectory.journal; 0: the run keeps no trajectory
+    std::uint64_t contacts_bytes = 0;    ///< length of contacts.csv; 0: the run keeps none
+    std::uint64_t contacts_hash = 0;     ///< checksum of these bytes
+};
+
+/// Writes FOLDER/checkpoint, and keeps the one before as FOLDER/checkpoint.previous.
+///
+/// A kill or a power cut at any moment leaves at least one of the two whole: the new one is complete on the disk
+/// (checkpoint.tmp, fsync) before anything is renamed. Series and trajectory must have been synced before.
+/// Errors: DiskError; the last sound checkpoint is then still there.
+void write_checkpoint(const std::string& folder, const Checkpoint& checkpoint);
+
+/// Reads and verifies one checkpoint file, and changes nothing.
+///
+/// Format: 8 bytes "\x89JOSTLE\n", version (u32), 0 (u32), payload length (u64), payload, XXH3 checksum (u64) of all
+/// before; numbers little endian, doubles as they are.
+/// Errors: InputError that tells apart a missing, foreign, truncated or damaged file and another format version.
+Checkpoint read_checkpoint(const std::string& path);
+
+/// The checkpoint to go on from: FOLDER/checkpoint, or FOLDER/checkpoint.previous if a kill left only that, or none.
+///
+/// A damaged FOLDER/checkpoint is an error, not silently passed over: the message says whether the one before is sound
+/// and how to go on from it. Errors: InputError, DiskError.
+std::optional<Checkpoint> latest_checkpoint(const std::string& folder);
+
+/// Refuses a checkpoint of another scene; the message names the first line that differs. Errors: InputError.
+void require_same_scene(const Checkpoint& checkpoint, const std::string& scene, const std::string& folder);
+
+}  // namespace jostle

@@ -1,0 +1,193 @@
+#include "jostle/io/durable_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+#include <utility>
+
+namespace jostle {
+namespace {
+
+std::string words(int error_number) {
+    std::string text = std::generic_category().message(error_number);
+    if (error_number == ENOSPC || error_number == EDQUOT || error_number == EFBIG)
+        text += ". Make room and run the same command again: it goes on from the last checkpoint";
+    return text;
+}
+
+/// Repeats a system call that a signal interrupted.
+template <class Call>
+auto uninterrupted(Call call) {
+    auto result = call();
+    while (result < 0 && errno == EINTR) result = call();
+    return result;
+}
+
+std::uint64_t size_of(int descriptor, const std::string& path) {
+    struct stat status {};
+    if (::fstat(descriptor, &status) < 0) throw DiskError(path, "ask for the size", errno);
+    return static_cast<std::uint64_t>(status.st_size);
+}
+
+}  // namespace
+
+DiskError::DiskError(const std::string& path, const std::string& operation, int error_number)
+    : std::runtime_error(path + ": cannot " + operation + ": " + words(error_number)), error_number_(error_number) {}
+
+DiskError::DiskError(const std::string& path, const std::string& operation, const std::string& reason)
+    : std::runtime_error(path + ": cannot " + operation + ": " + reason) {}
+
+InputError refused_file(const std::string& path, std::string problem, std::string suggestion, int line) {
+    InputError::Parts parts;
+    parts.problem = std::move(problem);
+    parts.suggestion = std::move(suggestion);
+    parts.place = {path, line, 0};
+    return InputError(std::move(parts));
+}
+
+AppendFile::AppendFile(std::string path) : path_(std::move(path)) {
+    descriptor_ = uninterrupted([&] { return ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666); });
+    if (descriptor_ < 0) throw DiskError(path_, "open for writing", errno);
+    try {
+        size_ = size_of(descriptor_, path_);
+    } catch (...) {
+        ::close(descriptor_);
+        throw;
+    }
+}
+
+AppendFile::AppendFile(AppendFile&& other) noexcept
+    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)), size_(other.size_) {}
+
+AppendFile& AppendFile::operator=(AppendFile&& other) noexcept {
+    std::swap(path_, other.path_);
+    std::swap(descriptor_, other.descriptor_);
+    std::swap(size_, other.size_);
+    return *this;
+}
+
+AppendFile::~AppendFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void AppendFile::write_all(std::string_view bytes) {
+    std::string_view rest = bytes;
+    while (!rest.empty()) {
+        const ssize_t written = uninterrupted([&] { return ::write(descriptor_, rest.data(), rest.size()); });
+        if (written < 0) {
+            const int error_number = errno;
+            // Undo the part that went through; if even this fails, resuming cuts the file at the checkpoint.
+            [[maybe_unused]] const int ignored = ::ftruncate(descriptor_, static_cast<off_t>(size_));
+            throw DiskError(path_, "write", error_number);
+        }
+        rest.remove_prefix(static_cast<std::size_t>(written));
+    }
+    size_ += bytes.size();
+}
+
+void AppendFile::truncate_to(std::uint64_t size) {
+    if (uninterrupted([&] { return ::ftruncate(descriptor_, static_cast<off_t>(size)); }) < 0)
+        throw DiskError(path_, "shorten", errno);
+    size_ = size;
+}
+
+void AppendFile::sync() {
+    if (uninterrupted([&] { return ::fsync(descriptor_); }) < 0) throw DiskError(path_, "write to the disk", errno);
+}
+
+ReadFile::ReadFile(std::string path) : path_(std::move(path)) {
+    descriptor_ = uninterrupted([&] { return ::open(path_.c_str(), O_RDONLY | O_CLOEXEC); });
+    if (descriptor_ < 0 && (errno == ENOENT || errno == ENOTDIR))
+        throw refused_file(path_, "there is no such file", "Check the name");
+    if (descriptor_ < 0) throw DiskError(path_, "open for reading", errno);
+    struct stat status {};
+    const bool failed = ::fstat(descriptor_, &status) < 0;
+    const int error_number = errno;
+    if (failed || S_ISDIR(status.st_mode)) ::close(descriptor_);
+    if (failed) throw DiskError(path_, "ask for the size", error_number);
+    if (S_ISDIR(status.st_mode)) throw refused_file(path_, "is a folder, not a file", "Check the name");
+    size_ = static_cast<std::uint64_t>(status.st_size);
+}
+
+ReadFile::~ReadFile() {
+    ::close(descriptor_);
+}
+
+void ReadFile::read_up_to(std::uint64_t count, std::string& bytes) {
+    // A length read from a damaged file must not claim memory that the file cannot fill.
+    bytes.resize(std::min(count, std::max<std::uint64_t>(size_, 4096)));
+    std::size_t filled = 0;
+    while (filled < bytes.size()) {
+        const ssize_t got =
+            uninterrupted([&] { return ::read(descriptor_, bytes.data() + filled, bytes.size() - filled); });
+        if (got < 0) throw DiskError(path_, "read", errno);
+        if (got == 0) break;
+        filled += static_cast<std::size_t>(got);
+    }
+    bytes.resize(filled);
+}
+
+std::string read_file(const std::string& path) {
+    ReadFile file(path);
+    std::string content, block;
+    for (file.read_up_to(file.size() + 4096, block); !block.empty(); file.read_up_to(4096, block)) content += block;
+    return content;
+}
+
+void write_synced_file(const std::string& path, std::string_view content) {
+    AppendFile file(path);
+    file.truncate_to(0);
+    file.write_all(content);
+    file.sync();
+}
+
+void replace_file(const std::string& path, std::string_view content) {
+    const std::string temporary = path + ".tmp";
+    try {
+        write_synced_file(temporary, content);
+        rename_file(temporary, path);
+    } catch (...) {
+        remove_file_if_present(temporary);
+        throw;
+    }
+    sync_folder(folder_of(path));
+}
+
+void rename_file(const std::string& from, const std::string& to) {
+    if (::rename(from.c_str(), to.c_str()) < 0) throw DiskError(from, "rename to " + to, errno);
+}
+
+void sync_folder(const std::string& folder) {
+    const char* operation = "write the folder to the disk";
+    const int descriptor = uninterrupted([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
+    if (descriptor < 0) throw DiskError(folder, operation, errno);
+    const int result = uninterrupted([&] { return ::fsync(descriptor); });
+    const int error_number = errno;
+    ::close(descriptor);
+    // Some file systems know no fsync of a folder (EINVAL): there is nothing more that could be done.
+    if (result < 0 && error_number != EINVAL) throw DiskError(folder, operation, error_number);
+}
+
+void remove_file_if_present(const std::string& path) noexcept {
+    ::unlink(path.c_str());
+}
+
+bool file_exists(const std::string& path) {
+    struct stat status {};
+    if (::lstat(path.c_str(), &status) == 0) return true;
+    if (errno == ENOENT || errno == ENOTDIR) return false;
+    throw DiskError(path, "look at it", errno);
+}
+
+std::string folder_of(const std::string& path) {
+    const std::size_t slash = path.find_last_of('/');
+    if (slash == std::string::npos) return ".";
+    return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+}  // namespace jostle

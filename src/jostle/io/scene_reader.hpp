@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "jostle/simulation/scene.hpp"
+
+namespace jostle {
+
+/// Reads and validates a scene file.
+///
+/// Throws InputError with the place, the value as written, what is allowed and a suggestion, for a file that is
+/// missing, unreadable, empty, cut short or not TOML, and for everything that `parse_scene` refuses.
+Scene read_scene(const std::filesystem::path& path);
+
+/// Reads and validates a scene in TOML; `file_name` is for messages.
+///
+/// Keys are those of `for_each_key`. In the micro system numbers may carry units (`parse_quantity`), and the viscosity,
+/// kT and the diameter must be given: 1 is a natural default in reduced units only. A scene without a step gets
+/// rms_step = 0.03 where there is Brownian motion.
+/// Throws InputError for unknown, missing, repeated and unused keys, wrong types and whatever `validate` refuses.
+Scene parse_scene(std::string_view text, std::string file_name);
+
+}  // namespace jostle

@@ -1,0 +1,159 @@
+#include "jostle/io/trajectory_journal.hpp"
+
+#include <string_view>
+
+#include "jostle/io/checksum.hpp"
+
+namespace jostle {
+namespace {
+
+constexpr std::string_view magic = "\x89JTRAJ\r\n";
+constexpr std::uint32_t format_version = 1;
+constexpr std::uint64_t file_header_bytes = 16;
+constexpr std::array<char, 8> frame_mark = {'F', 'R', 'A', 'M', 'E', 0, 0, 0};
+constexpr std::uint64_t frame_header_bytes = 72;
+constexpr std::uint64_t rod_bytes = 52;
+constexpr std::uint64_t checksum_bytes = 8;
+constexpr const char* put_back = "Put the file back, or start again with --fresh";
+
+std::string file_header() {
+    ByteWriter writer;
+    writer.put(format_version);
+    writer.put(std::uint32_t{0});
+    return std::string(magic) + writer.bytes();
+}
+
+void put_single(ByteWriter& writer, const std::vector<Vec3>& vectors) {
+    for (const Vec3& v : vectors)
+        writer.put(std::array<float, 3>{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)});
+}
+
+void put_single(ByteWriter& writer, const std::vector<double>& values) {
+    for (const double value : values) writer.put(static_cast<float>(value));
+}
+
+std::uint64_t periodic_bits(const Box& box) {
+    return (box.periodic[0] ? 1u : 0u) | (box.periodic[1] ? 2u : 0u) | (box.periodic[2] ? 4u : 0u);
+}
+
+/// Fills the frame's header and returns N. The frame mark has been read before.
+std::uint64_t take_header(ByteReader& reader, TrajectoryFrame& frame) {
+    frame.step = reader.take<std::uint64_t>();
+    frame.time = reader.take<double>();
+    frame.box.edges = reader.take<Vec3>();
+    const auto periodic = reader.take<std::uint64_t>();
+    for (std::size_t k = 0; k < 3; ++k) frame.box.periodic[k] = (periodic >> k & 1u) != 0;
+    return reader.take<std::uint64_t>();
+}
+
+void take_rods(ByteReader& reader, std::uint64_t count, TrajectoryFrame& frame) {
+    reader.take_elements(count, frame.id);
+    reader.take_elements(count, frame.centre);
+    reader.take_elements(count, frame.image);
+    reader.take_elements(count, frame.axis);
+    reader.take_elements(count, frame.length);
+    reader.take_elements(count, frame.diameter);
+}
+
+/// Whether the last 8 of `bytes` are the checksum of those before.
+bool sound(std::string_view bytes) {
+    const std::size_t size = bytes.size() - checksum_bytes;
+    return ByteReader(bytes.substr(size)).take<std::uint64_t>() == checksum(bytes.substr(0, size));
+}
+
+}  // namespace
+
+TrajectoryJournal TrajectoryJournal::create(const std::string& path) {
+    TrajectoryJournal journal{AppendFile(path)};
+    journal.file_.truncate_to(0);
+    journal.file_.write_all(file_header());
+    return journal;
+}
+
+TrajectoryJournal TrajectoryJournal::resume(const std::string& path, std::uint64_t bytes) {
+    require_frames(path, bytes);
+    TrajectoryJournal journal{AppendFile(path)};
+    journal.file_.truncate_to(bytes);
+    return journal;
+}
+
+void TrajectoryJournal::require_frames(const std::string& path, std::uint64_t bytes) {
+    TrajectoryReader reader(path);
+    TrajectoryFrame frame;
+    while (reader.offset() < bytes && reader.next(frame)) {
+    }
+    if (reader.offset() != bytes)
+        throw refused_file(path,
+                           "the trajectory does not fit the checkpoint: its whole frames end at byte " +
+                               std::to_string(reader.offset()) + ", the checkpoint needs " + std::to_string(bytes),
+                           put_back);
+}
+
+void TrajectoryJournal::append(std::uint64_t step, double time, const Box& box, const Rods& rods) {
+    frame_.clear();
+    frame_.put(frame_mark);
+    frame_.put(step);
+    frame_.put(time);
+    frame_.put(box.edges);
+    frame_.put(periodic_bits(box));
+    frame_.put(static_cast<std::uint64_t>(rods.size()));
+    frame_.put(checksum(frame_.bytes()));
+    frame_.put_elements(rods.id);
+    put_single(frame_, rods.centre);
+    frame_.put_elements(rods.image);
+    put_single(frame_, rods.axis);
+    put_single(frame_, rods.length);
+    put_single(frame_, rods.diameter);
+    frame_.put(checksum(frame_.bytes()));
+    file_.write_all(frame_.bytes());
+}
+
+TrajectoryReader::TrajectoryReader(const std::string& path) : file_(path), offset_(file_header_bytes) {
+    const std::string expected = file_header();
+    file_.read_up_to(file_header_bytes, buffer_);
+    if (buffer_ == expected) return;
+    if (expected.starts_with(buffer_))
+        throw refused_file(path,
+                           "the trajectory is truncated: it has " + std::to_string(buffer_.size()) +
+                               " bytes, its header alone has " + std::to_string(file_header_bytes),
+                           put_back);
+    if (!buffer_.starts_with(magic))
+        throw refused_file(path, "is not a trajectory journal of jostle: it does not begin with the right 8 bytes",
+                           put_back);
+    throw refused_file(
+        path, "the trajectory journal is damaged or has another format version than " + std::to_string(format_version),
+        "Go on with the jostle that wrote it, or start again with --fresh");
+}
+
+bool TrajectoryReader::next(TrajectoryFrame& frame) {
+    const auto damaged = [this](const std::string& what) {
+        return refused_file(file_.path(),
+                            "the trajectory is damaged: frame " + std::to_string(frames_ + 1) + ", at byte " +
+                                std::to_string(offset_) + ", " + what,
+                            put_back);
+    };
+    file_.read_up_to(frame_header_bytes, buffer_);
+    if (buffer_.size() < frame_header_bytes) return false;
+    // The header has a checksum of its own because N decides where the frame ends.
+    if (!sound(buffer_)) throw damaged("has a header that does not match its checksum");
+    std::string whole = buffer_;
+    ByteReader header(whole);
+    if (header.take<std::array<char, 8>>() != frame_mark) throw damaged("does not begin with the frame mark");
+    const std::uint64_t count = take_header(header, frame);
+    if (frames_ > 0 && frame.step <= last_step_) throw damaged("is not later than the frame before it");
+
+    if (count > (file_.size() - offset_) / rod_bytes) return false;
+    const std::uint64_t rest_bytes = count * rod_bytes + checksum_bytes;
+    file_.read_up_to(rest_bytes, buffer_);
+    if (buffer_.size() < rest_bytes) return false;
+    whole += buffer_;
+    if (!sound(whole)) throw damaged("does not match its checksum");
+    ByteReader rods(buffer_);
+    take_rods(rods, count, frame);
+    offset_ += frame_header_bytes + rest_bytes;
+    ++frames_;
+    last_step_ = frame.step;
+    return true;
+}
+
+}  // namespace jostle
