@@ -1,0 +1,112 @@
+#include "check_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "jostle/io/scene_reader.hpp"
+#include "jostle/io/scene_writer.hpp"
+#include "jostle/io/units.hpp"
+#include "jostle/simulation/assemble.hpp"
+#include "jostle/simulation/validate_scene.hpp"
+#include "rods_of_scene.hpp"
+
+using namespace jostle;
+
+namespace {
+
+/// The rods that derived numbers are about: those of the file, or one that stands for all (they are alike).
+struct Population {
+    Rods rods;
+    double count = 0.0;
+    double volume = 0.0;
+};
+
+Population population_of(const Scene& scene, const std::optional<Rods>& from_file) {
+    if (from_file) return {*from_file, static_cast<double>(from_file->size()), total_volume(*from_file)};
+    Rods one;
+    one.push_back(0, {}, {1, 0, 0}, scene.rods.length, scene.rods.diameter);
+    return {one, static_cast<double>(scene.rods.count), rods_volume(scene)};
+}
+
+/// Rough costs, from docs/performance.md: a step of one rod takes longer where there are more contacts.
+double seconds_per_rod_and_step(double volume_fraction) {
+    return (0.5 + 12.0 * volume_fraction * volume_fraction + 2.0 * volume_fraction) * 1e-6;
+}
+double bytes_per_rod(double volume_fraction) {
+    return 900.0 + 6000.0 * volume_fraction;
+}
+
+void print(const char* name, const std::string& value) {
+    std::printf("%-28s %s\n", name, value.c_str());
+}
+
+std::string with_unit(double value, UnitSystem units, Dimension dimension) {
+    return fmt::format("{:.6g} {}", value, unit_of(units, dimension));
+}
+
+void print_motion(const Scene& scene, const Mobility& mobility, const Rods& rods, double dt) {
+    const double kT = thermal_energy(scene);
+    const UnitSystem units = scene.units.system;
+    const RodMobility rod = mobility.of_rod(0);
+    const double diameter = *std::min_element(rods.diameter.begin(), rods.diameter.end());
+    const double rotation = kT * rod.rotational;
+    if (kT > 0.0) {
+        const double fastest = fastest_diffusion(kT, mobility, rods.size());
+        print("D_parallel, D_perpendicular",
+              fmt::format("{:.6g}, {:.6g} {}", kT * rod.parallel, kT * rod.perpendicular, unit_of(units, {2, -1, 0})));
+        print("D_t of the fastest rod", with_unit(fastest, units, {2, -1, 0}));
+        print("D_R, 1/D_R", fmt::format("{:.6g} {}, {:.6g} {}", rotation, unit_of(units, dimension::rate),
+                                        1.0 / rotation, unit_of(units, dimension::time)));
+        print("dt D_R", fmt::format("{:.3g}", dt * rotation));
+        print("rms step / D", fmt::format("{:.4g}", std::sqrt(2.0 * fastest * dt) / diameter));
+    }
+    const double speed = scene.motion.self_propulsion;
+    if (speed != 0.0) {
+        print("propelled per step / D", fmt::format("{:.3g}", std::fabs(speed) * dt / diameter));
+        if (kT > 0.0 && rods.length[0] > 0.0)
+            print("U_0/(L D_R)", fmt::format("{:.4g}", speed / (rods.length[0] * rotation)));
+    }
+}
+
+void print_cost(const Scene& scene, const Population& population, double phi, double dt) {
+    const double equilibration = scene.time.equilibration.value_or(0.25 * scene.time.production);
+    const double steps = std::ceil((equilibration + scene.time.production) / dt);
+    const double rows = steps / static_cast<double>(scene.output.series_every);
+    const double frames =
+        scene.output.trajectory_every > 0 ? steps / static_cast<double>(scene.output.trajectory_every) : 0.0;
+    print("steps", fmt::format("{:.6g}{}", steps,
+                               scene.time.equilibration ? "" : " (if equilibration takes a quarter of production)"));
+    print("memory, about", fmt::format("{:.0f} MB", 20.0 + population.count * bytes_per_rod(phi) / 1e6));
+    print("disk, about",
+          fmt::format("{:.1f} MB", (rows * 400.0 + frames * population.count * 52.0 + population.count * 250.0) / 1e6));
+    print("time on one thread, about",
+          fmt::format("{:.3g} s", steps * population.count * seconds_per_rod_and_step(phi)));
+}
+
+}  // namespace
+
+ExitCode check_command(const std::string& scene_path) {
+    const Scene scene = read_scene(scene_path);
+    const auto from_file = rods_from_file(scene, scene_path);
+    const Population population = population_of(scene, from_file);
+    const Box box = box_of(scene, from_file);
+    const double phi = population.volume / box.volume();
+    const auto mobility = make_mobility(scene, population.rods);
+    const double dt = time_step(scene, *mobility, population.rods);
+    const UnitSystem units = scene.units.system;
+
+    std::printf("%s\n# what follows from it\n", to_toml(scene).c_str());
+    print("units", units == UnitSystem::micro ? "um, s, pN (stress in pN um-2 = Pa)" : "D, kT, viscosity");
+    print("N", fmt::format("{:.0f}", population.count));
+    print("L/D", fmt::format("{:.6g}", population.rods.length[0] / population.rods.diameter[0]));
+    print("phi", fmt::format("{:.6g}", phi));
+    print("box", fmt::format("{:.6g} x {:.6g} x {:.6g} {}", box.edges.x, box.edges.y, box.edges.z,
+                             unit_of(units, dimension::length)));
+    print("time step", with_unit(dt, units, dimension::time));
+    print_motion(scene, *mobility, population.rods, dt);
+    print_cost(scene, population, phi, dt);
+    return ExitCode::done;
+}

@@ -1,0 +1,9 @@
+#pragma once
+
+#include <string>
+
+#include "exit_code.hpp"
+
+/// `jostle check`: reads and validates a scene, and prints what it means: the resolved scene, derived numbers, memory
+/// and time.
+ExitCode check_command(const std::string& scene_path);

@@ -1,0 +1,26 @@
+#include "exit_code.hpp"
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "jostle/error/input_error.hpp"
+#include "jostle/io/durable_file.hpp"
+
+int exit_status(const std::function<ExitCode()>& command) {
+    const auto fail = [](ExitCode code, const char* what) {
+        std::fprintf(stderr, "jostle: %s\n", what);
+        return static_cast<int>(code);
+    };
+    try {
+        return static_cast<int>(command());
+    } catch (const jostle::InputError& error) {
+        return fail(ExitCode::bad_input, error.what());
+    } catch (const jostle::DiskError& error) {
+        return fail(ExitCode::disk, error.what());
+    } catch (const std::bad_alloc&) {
+        return fail(ExitCode::internal, "out of memory; `jostle check SCENE.toml` estimates what a scene needs");
+    } catch (const std::exception& error) {
+        return fail(ExitCode::internal, error.what());
+    }
+}

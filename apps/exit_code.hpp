@@ -1,0 +1,16 @@
+#pragma once
+
+#include <functional>
+
+/// What the command's exit status means; told in README and `jostle --help`.
+enum class ExitCode : int {
+    done = 0,
+    internal = 1,
+    bad_input = 2,
+    numerics = 3,  ///< contacts not resolved, or overlap above the limit
+    disk = 4,
+    stopped_early = 75,  ///< run again to go on (EX_TEMPFAIL)
+};
+
+/// Runs a command, tells any error on standard error in one line, and returns the exit status.
+int exit_status(const std::function<ExitCode()>& command);

@@ -1,0 +1,80 @@
+#include <CLI/CLI.hpp>
+
+#include "check_command.hpp"
+#include "exit_code.hpp"
+#include "run_command.hpp"
+#include "verify_command.hpp"
+#include "version.hpp"
+
+namespace {
+
+/// Seconds of "H:MM" or "H:MM:SS"; an empty optional if the text is no such time.
+std::optional<double> seconds_of(const std::string& text) {
+    int hours = 0, minutes = 0, seconds = 0, used = 0;
+    const bool with_seconds = std::sscanf(text.c_str(), "%5d:%2d:%2d%n", &hours, &minutes, &seconds, &used) == 3;
+    if (!with_seconds) {
+        seconds = 0;
+        if (std::sscanf(text.c_str(), "%5d:%2d%n", &hours, &minutes, &used) != 2) return std::nullopt;
+    }
+    if (static_cast<std::size_t>(used) != text.size() || hours < 0 || minutes < 0 || minutes > 59 || seconds < 0 ||
+        seconds > 59)
+        return std::nullopt;
+    return 3600.0 * hours + 60.0 * minutes + seconds;
+}
+
+std::string joined(int count, char** words) {
+    std::string line;
+    for (int k = 0; k < count; ++k) line += (k == 0 ? "" : " ") + std::string(words[k]);
+    return line;
+}
+
+constexpr const char* footer =
+    "Exit status: 0 done, 1 internal error, 2 bad input, 3 contacts not resolved or overlap above the limit,\n"
+    "4 disk, 75 stopped early (run the same command again to go on).";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app{"jostle: collision stress of assemblies of rods"};
+    app.set_version_flag("--version",
+                         std::string("jostle ") + jostle_version + " (" + jostle_commit + ", " + jostle_compiler + ")");
+    app.require_subcommand(1);
+    app.footer(footer);
+
+    RunOptions options;
+    options.command_line = joined(argc, argv);
+    std::string wall_time;
+    CLI::App* run = app.add_subcommand("run", "Run a scene, or go on with a run of it that was stopped");
+    run->add_option("scene", options.scene, "scene file (TOML)")->required();
+    run->add_option("--out", options.folder, "folder for the results; default: SCENE's name with .run");
+    run->add_option("--threads", options.threads, "number of threads; the result does not depend on it")
+        ->check(CLI::Range(1, 4096));
+    run->add_option("--walltime", wall_time, "stop, ready to go on, before this time is over (H:MM or H:MM:SS)")
+        ->check([](const std::string& text) {
+            return seconds_of(text) ? std::string{} : "--walltime " + text + ": expected H:MM or H:MM:SS, as 23:50";
+        });
+    run->add_flag("--fresh", options.fresh, "start anew; an earlier run in the folder is moved aside, not deleted");
+    CLI::Option* quiet = run->add_flag("--quiet", options.quiet, "print errors only");
+    run->add_flag("--json", options.json, "print the summary as JSON, nothing else")->excludes(quiet);
+    run->footer(footer);
+
+    std::string scene;
+    CLI::App* check = app.add_subcommand("check", "Validate a scene and print what follows from it; runs nothing");
+    check->add_option("scene", scene, "scene file (TOML)")->required();
+
+    std::string folder;
+    CLI::App* verify = app.add_subcommand("verify", "Check the files of a run for damage");
+    verify->add_option("folder", folder, "folder of a run")->required();
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
+    }
+    options.wall_time = seconds_of(wall_time);
+    return exit_status([&]() {
+        if (run->parsed()) return run_command(options);
+        if (check->parsed()) return check_command(scene);
+        return verify_command(folder);
+    });
+}

@@ -1,0 +1,88 @@
+#include "post_mortem.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "jostle/io/durable_file.hpp"
+
+using namespace jostle;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr std::size_t contacts_told = 10;
+
+/// The contacts for which `rank` is largest.
+template <class Rank>
+Json worst_contacts(const Simulation& simulation, Rank&& rank) {
+    const Contacts& contacts = simulation.contacts();
+    const auto& gamma = simulation.contact_solution().gamma;
+    std::vector<std::size_t> order(contacts.size());
+    for (std::size_t l = 0; l < order.size(); ++l) order[l] = l;
+    const std::size_t count = std::min(contacts_told, order.size());
+    std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
+                      [&](std::size_t a, std::size_t b) { return rank(a) > rank(b); });
+    Json list = Json::array();
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t l = order[k];
+        const Contact& contact = contacts.contact[l];
+        list.push_back({{"id_i", simulation.rods().id[contact.i]},
+                        {"id_j", simulation.rods().id[contact.j]},
+                        {"image", contacts.image[l]},
+                        {"gap", contact.gap},
+                        {"force", l < gamma.size() ? gamma[l] : 0.0}});
+    }
+    return list;
+}
+
+}  // namespace
+
+std::string description(LcpStatus status) {
+    switch (status) {
+        case LcpStatus::converged:
+            return "converged";
+        case LcpStatus::iteration_limit:
+            return "the contact problem was not solved within solver.max_iterations";
+        case LcpStatus::infeasible:
+            return "the contact problem has no solution: the rods are packed too densely to be moved apart";
+        case LcpStatus::not_finite:
+            return "the contact problem holds numbers that are not finite";
+    }
+    return "";
+}
+
+std::string advice(const StepReport& report) {
+    switch (report.status) {
+        case LcpStatus::iteration_limit:
+            return "  try a smaller time.step (or rms_step), or a larger solver.max_iterations or tolerance\n";
+        case LcpStatus::infeasible:
+            return "  use a lower volume fraction; this one cannot be reached with this start\n";
+        case LcpStatus::not_finite:
+            return "  try a much smaller time.step (or rms_step)\n";
+        case LcpStatus::converged:
+            return "  try a smaller time.step (or rms_step)\n";
+    }
+    return "";
+}
+
+void write_post_mortem(const std::string& path, const Simulation& simulation, const StepReport& report,
+                       const std::string& failure) {
+    const auto& contacts = simulation.contacts().contact;
+    const auto& gamma = simulation.contact_solution().gamma;
+    const Json record = {
+        {"failure", failure},
+        {"step", report.step},
+        {"time", report.time},
+        {"time_step", simulation.settings().time_step},
+        {"volume_fraction", total_volume(simulation.rods()) / simulation.box().volume()},
+        {"residual", report.residual},
+        {"tolerance", simulation.settings().lcp.tolerance},
+        {"iterations", report.iterations},
+        {"max_iterations", simulation.settings().lcp.max_iterations},
+        {"contacts", report.contacts},
+        {"max_overlap", report.max_overlap},
+        {"deepest_contacts", worst_contacts(simulation, [&](std::size_t l) { return -contacts[l].gap; })},
+        {"strongest_contacts",
+         worst_contacts(simulation, [&](std::size_t l) { return l < gamma.size() ? gamma[l] : 0.0; })}};
+    replace_file(path, record.dump(2) + "\n");
+}

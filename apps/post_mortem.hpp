@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "jostle/simulation/simulation.hpp"
+
+/// Why a contact problem was not solved, in words.
+std::string description(jostle::LcpStatus status);
+
+/// What the user can do about a failed step, one or two lines.
+std::string advice(const jostle::StepReport& report);
+
+/// post_mortem.json: the failed step, its report, and the contacts with the largest forces and overlaps.
+void write_post_mortem(const std::string& path, const jostle::Simulation& simulation, const jostle::StepReport& report,
+                       const std::string& failure);

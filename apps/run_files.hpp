@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+
+#include "jostle/io/checkpoint.hpp"
+#include "jostle/io/run_directory.hpp"
+#include "jostle/io/series_file.hpp"
+#include "jostle/io/trajectory_journal.hpp"
+#include "jostle/simulation/scene.hpp"
+#include "jostle/simulation/simulation.hpp"
+#include "step_sums.hpp"
+
+/// The files that grow while a run lasts, kept in step with its checkpoints.
+///
+/// Resuming cuts all of them back to the checkpoint, so that the steps made since are made, and written, again.
+class RunFiles {
+public:
+    /// Files of a new run; `simulation` stands at its beginning.
+    RunFiles(const jostle::RunDirectory& directory, const jostle::Scene& scene, std::string resolved_scene,
+             const jostle::Simulation& simulation);
+    /// Files of a run that goes on from a checkpoint. Nothing is cut before all files were found to be sound.
+    RunFiles(const jostle::RunDirectory& directory, const jostle::Scene& scene, std::string resolved_scene,
+             const jostle::Checkpoint& checkpoint);
+
+    void append_row(const std::vector<double>& row);
+    void append_frame(const jostle::Simulation& simulation);
+    /// The contacts with a force in the last step.
+    void append_contacts(const jostle::Simulation& simulation);
+
+    /// Makes everything so far durable, and the point to go on from.
+    void write_checkpoint(const jostle::Simulation& simulation, const StepSums& sums);
+
+    /// All rows so far.
+    const jostle::SeriesTable& series() const { return series_; }
+    bool has_trajectory() const { return journal_.has_value(); }
+
+private:
+    const jostle::RunDirectory& directory_;
+    std::string resolved_scene_;
+    jostle::SeriesFile series_file_;
+    jostle::SeriesTable series_;
+    std::optional<jostle::TrajectoryJournal> journal_;
+    std::optional<jostle::SeriesFile> contacts_file_;
+};

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+/// What the command line of `jostle run` says.
+struct RunOptions {
+    std::string scene;                ///< path of the scene file
+    std::string folder;               ///< --out; empty: the scene's name, in the current folder
+    int threads = 0;                  ///< 0: as many as OpenMP would take
+    std::optional<double> wall_time;  ///< seconds; stop before it is over
+    bool fresh = false;               ///< move an existing run aside, and start anew
+    bool quiet = false;
+    bool json = false;         ///< print the summary as JSON, and nothing else
+    std::string command_line;  ///< as typed
+};

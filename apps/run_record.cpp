@@ -1,0 +1,83 @@
+#include "run_record.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <ctime>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "jostle/io/durable_file.hpp"
+#include "jostle/parallel/parallel_for.hpp"
+#include "version.hpp"
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+double seconds_now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::string utc_now() {
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    std::array<char, 32> text{};
+    std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+    return text.data();
+}
+
+std::string processor() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);)
+        if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+    return "unknown";
+}
+
+/// The sessions of an earlier record; a record that cannot be read is only history, so nothing hangs on it.
+std::string sessions_of(const std::string& path) {
+    if (!jostle::file_exists(path)) return "[]";
+    const Json record = Json::parse(jostle::read_file(path), nullptr, false);
+    return record.is_object() && record.contains("sessions") ? record["sessions"].dump() : "[]";
+}
+
+}  // namespace
+
+std::string host_name() {
+    std::array<char, 256> name{};
+    return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+RunRecord::RunRecord(std::string path, const RunOptions& options)
+    : path_(std::move(path)),
+      earlier_sessions_(sessions_of(path_)),
+      command_line_(options.command_line),
+      started_(utc_now()),
+      began_(seconds_now()) {}
+
+void RunRecord::write(const jostle::Simulation& simulation, const std::string& exit_reason) {
+    if (!begun_) first_step_ = simulation.clock().step;
+    begun_ = true;
+    Json record = {{"program", "jostle"},
+                   {"version", jostle_version},
+                   {"git", jostle_commit},
+                   {"compiler", jostle_compiler},
+                   {"seed", simulation.settings().seed},
+                   {"time_step", simulation.settings().time_step},
+                   {"steps", simulation.clock().step},
+                   {"exit_reason", exit_reason},
+                   {"sessions", Json::parse(earlier_sessions_)}};
+    record["sessions"].push_back({{"started", started_},
+                                  {"command", command_line_},
+                                  {"host", host_name()},
+                                  {"processor", processor()},
+                                  {"threads", jostle::parallel::thread_count()},
+                                  {"first_step", first_step_},
+                                  {"last_step", simulation.clock().step},
+                                  {"wall_seconds", seconds_now() - began_},
+                                  {"exit_reason", exit_reason}});
+    jostle::replace_file(path_, record.dump(2) + "\n");
+}

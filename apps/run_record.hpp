@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "jostle/simulation/simulation.hpp"
+#include "run_options.hpp"
+
+/// run.json: with what, where and for how long a run was made; one entry a session in "sessions".
+class RunRecord {
+public:
+    /// `path`: of run.json; sessions that it already holds are kept.
+    RunRecord(std::string path, const RunOptions& options);
+
+    /// Writes the record with what this session has come to. `exit_reason`: "running", "done", "signal 15", ...
+    void write(const jostle::Simulation& simulation, const std::string& exit_reason);
+
+private:
+    std::string path_;
+    std::string earlier_sessions_;  ///< JSON array
+    std::string command_line_;
+    std::string started_;
+    double began_ = 0.0;
+    std::uint64_t first_step_ = 0;
+    bool begun_ = false;
+};
+
+/// Name of this machine.
+std::string host_name();

@@ -1,0 +1,69 @@
+#include "series_columns.hpp"
+
+#include <cmath>
+
+#include "jostle/io/units.hpp"
+#include "jostle/statistics/order_parameter.hpp"
+#include "jostle/stress/stress.hpp"
+
+using namespace jostle;
+
+std::vector<SeriesColumn> series_columns(UnitSystem units) {
+    const std::string stress = unit_of(units, dimension::stress);
+    const std::string pressure_sign = "positive in compression";
+    std::vector<SeriesColumn> columns = {
+        {"step", "1", "k", "number of steps done", ""},
+        {"time", unit_of(units, dimension::time), "t", "simulated time", ""},
+        {"N", "1", "N", "number of rods", ""},
+        {"phi", "1", "phi", "volume of the rods over volume of the box", ""},
+        {"Z", "1", "Z", "compressibility factor Pi/(n kT), mean over the steps since the last row", pressure_sign},
+        {"pressure", stress, "Pi", "Tr Sigma/3 with the kinetic part n kT, mean over the steps since the last row",
+         pressure_sign},
+        {"pressure_collision", stress, "Pi_col", "Tr Sigma_col/3, mean over the steps since the last row",
+         pressure_sign}};
+    for (const char* name : stress_column_names)
+        columns.push_back({name, stress, "Sigma_col",
+                           "element of the collision stress (position, force), mean over the steps since the last row",
+                           pressure_sign});
+    columns.push_back({"nematic_order", "1", "S", "largest eigenvalue of the order tensor at this step", ""});
+    for (const char* name : order_tensor_column_names)
+        columns.push_back({name, "1", "Q", "element of the order tensor <3 n n - I>/2 at this step", ""});
+    const std::string length = unit_of(units, dimension::length);
+    columns.push_back(
+        {"contacts", "1", "", "pairs of points that might touch, mean over the steps since the last row", ""});
+    columns.push_back(
+        {"active_contacts", "1", "", "contacts with a force, mean over the steps since the last row", ""});
+    columns.push_back(
+        {"iterations", "1", "", "applications of A per step, mean over the steps since the last row", ""});
+    columns.push_back({"residual", length, "max |H|",
+                       "residual of the contact problem, largest of the steps since the last row (the paper's norm, "
+                       "without unit, if solver.residual = \"paper\")",
+                       ""});
+    columns.push_back({"max_overlap", length, "",
+                       "largest overlap of two rods, largest of the steps since the last row", "positive: overlap"});
+    return columns;
+}
+
+std::vector<double> series_row(const Simulation& simulation, const StepSums& sums) {
+    const Rods& rods = simulation.rods();
+    const double volume = simulation.box().volume();
+    const double kT = simulation.settings().kT;
+    const double density = static_cast<double>(rods.size()) / volume;
+    const Stress stress = assembly_stress(density, kT, (1.0 / sums.steps) * sums.collision_virial, volume);
+    const NematicOrder order = nematic_order(rods.axis);
+    std::vector<double> row = {static_cast<double>(simulation.clock().step),
+                               simulation.clock().time,
+                               static_cast<double>(rods.size()),
+                               total_volume(rods) / volume,
+                               kT > 0.0 ? compressibility(stress, density, kT) : std::nan(""),
+                               pressure(stress),
+                               pressure_collision(stress)};
+    row.insert(row.end(), stress.collision.m.begin(), stress.collision.m.end());
+    row.push_back(order.order);
+    for (int a = 0; a < 3; ++a)
+        for (int b = a; b < 3; ++b) row.push_back(order.tensor(a, b));
+    for (const double sum : {sums.contacts, sums.active_contacts, sums.iterations}) row.push_back(sum / sums.steps);
+    row.push_back(sums.residual);
+    row.push_back(sums.max_overlap);
+    return row;
+}

@@ -1,0 +1,51 @@
+#include "step_sums.hpp"
+
+#include <algorithm>
+
+#include "jostle/error/input_error.hpp"
+
+using namespace jostle;
+
+void StepSums::add(const StepReport& report) {
+    steps += 1.0;
+    collision_virial += report.collision_virial;
+    contacts += static_cast<double>(report.contacts);
+    active_contacts += static_cast<double>(report.active_contacts);
+    iterations += static_cast<double>(report.iterations);
+    residual = std::max(residual, report.residual);
+    max_overlap = std::max(max_overlap, report.max_overlap);
+    run_max_overlap = std::max(run_max_overlap, report.max_overlap);
+    run_iterations += static_cast<double>(report.iterations);
+}
+
+void StepSums::start_row() {
+    StepSums fresh;
+    fresh.run_max_overlap = run_max_overlap;
+    fresh.run_iterations = run_iterations;
+    *this = fresh;
+}
+
+std::vector<double> StepSums::to_numbers() const {
+    std::vector<double> numbers = {steps,    contacts,    active_contacts, iterations,
+                                   residual, max_overlap, run_max_overlap, run_iterations};
+    numbers.insert(numbers.end(), collision_virial.m.begin(), collision_virial.m.end());
+    return numbers;
+}
+
+StepSums StepSums::from_numbers(const std::vector<double>& numbers) {
+    if (numbers.size() != 8 + 9)
+        throw InputError({.key = "checkpoint",
+                          .problem = "it holds sums of another version of jostle",
+                          .suggestion = "Start anew with --fresh"});
+    StepSums sums;
+    sums.steps = numbers[0];
+    sums.contacts = numbers[1];
+    sums.active_contacts = numbers[2];
+    sums.iterations = numbers[3];
+    sums.residual = numbers[4];
+    sums.max_overlap = numbers[5];
+    sums.run_max_overlap = numbers[6];
+    sums.run_iterations = numbers[7];
+    std::copy(numbers.begin() + 8, numbers.end(), sums.collision_virial.m.begin());
+    return sums;
+}

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "jostle/simulation/step_report.hpp"
+
+/// What is added up over the steps of one row of the series, and over the whole run. Goes into every checkpoint.
+struct StepSums {
+    // since the last row
+    double steps = 0.0;
+    jostle::Mat3 collision_virial;
+    double contacts = 0.0;
+    double active_contacts = 0.0;
+    double iterations = 0.0;
+    double residual = 0.0;     ///< the largest
+    double max_overlap = 0.0;  ///< the largest, a length
+    // since the start of the run
+    double run_max_overlap = 0.0;
+    double run_iterations = 0.0;
+
+    void add(const jostle::StepReport& report);
+    void start_row();
+
+    std::vector<double> to_numbers() const;
+    static StepSums from_numbers(const std::vector<double>& numbers);
+};

@@ -1,0 +1,200 @@
+#include "summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "jostle/io/units.hpp"
+#include "jostle/math/symmetric_eigen.hpp"
+#include "jostle/statistics/equilibration.hpp"
+#include "jostle/statistics/jackknife.hpp"
+#include "jostle/statistics/time_series.hpp"
+#include "jostle/stress/spherocylinder_moments.hpp"
+#include "jostle/stress/stress.hpp"
+#include "series_columns.hpp"
+
+using namespace jostle;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// Standard errors between measured and predicted anisotropy that are still called agreement (false alarm 0.3 %).
+constexpr double agreement = 3.0;
+
+using Columns = std::vector<std::vector<double>>;
+
+std::vector<double> from_row(const std::vector<double>& column, std::size_t first) {
+    return {column.begin() + static_cast<std::ptrdiff_t>(std::min(first, column.size())), column.end()};
+}
+
+Columns window_columns(const SeriesTable& series, std::size_t first, std::span<const char* const> names) {
+    Columns columns;
+    for (const char* name : names) columns.push_back(from_row(series.column(name), first));
+    return columns;
+}
+
+Json optional_number(const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json described(const Average& average, const std::string& unit) {
+    Json entry = {{"mean", average.mean},
+                  {"standard_error", optional_number(average.standard_error)},
+                  {"n_eff", average.effective_samples},
+                  {"standard_deviation", average.standard_deviation},
+                  {"correlation_time_rows", average.correlation_time}};
+    if (!average.no_error_reason.empty()) entry["no_standard_error_because"] = average.no_error_reason;
+    if (!unit.empty()) entry["unit"] = unit;
+    return entry;
+}
+
+Json described(const Estimate& estimate) {
+    Json entry = {{"mean", std::isfinite(estimate.value) ? Json(estimate.value) : Json(nullptr)},
+                  {"standard_error", optional_number(estimate.standard_error)},
+                  {"n_eff", estimate.effective_samples}};
+    if (!estimate.no_error_reason.empty()) entry["no_standard_error_because"] = estimate.no_error_reason;
+    return entry;
+}
+
+Json tensor_entry(const Columns& columns, const std::string& unit) {
+    Json mean = Json::array(), error = Json::array();
+    for (std::size_t a = 0; a < 3; ++a) {
+        Json mean_row = Json::array(), error_row = Json::array();
+        for (std::size_t b = 0; b < 3; ++b) {
+            const Average element = average(columns[3 * a + b]);
+            mean_row.push_back(element.mean);
+            error_row.push_back(optional_number(element.standard_error));
+        }
+        mean.push_back(mean_row);
+        error.push_back(error_row);
+    }
+    return {{"mean", mean}, {"standard_error", error}, {"unit", unit}};
+}
+
+double measured_anisotropy(std::span<const double> stress) {
+    Mat3 tensor;
+    std::copy(stress.begin(), stress.begin() + 9, tensor.m.begin());
+    return anisotropy_ratio(tensor);
+}
+
+/// Theory, eq. (1.8): eigenvalue ratio of (Z - 1) I + 2 B Q; numbers are the order tensor's six elements and Z.
+double predicted_anisotropy(std::span<const double> numbers, double B) {
+    const Mat3 order{
+        {numbers[0], numbers[1], numbers[2], numbers[1], numbers[3], numbers[4], numbers[2], numbers[4], numbers[5]}};
+    return anisotropy_ratio((numbers[6] - 1.0) * identity() + 2.0 * B * order);
+}
+
+bool all_alike(const Rods& rods) {
+    const auto same = [](const std::vector<double>& values) {
+        return std::all_of(values.begin(), values.end(), [&](double value) { return value == values.front(); });
+    };
+    return same(rods.length) && same(rods.diameter);
+}
+
+/// The anisotropy of the collision stress in equilibrium follows from Z and the order tensor alone.
+Json anisotropy_oracle(const SeriesTable& series, std::size_t first, const Rods& rods, const Columns& stress) {
+    const double B = moment_anisotropy(rods.length.front() / rods.diameter.front());
+    Columns columns = window_columns(series, first, order_tensor_column_names);
+    columns.push_back(from_row(series.column("Z"), first));
+    const Estimate predicted =
+        jackknife(columns, [B](std::span<const double> means) { return predicted_anisotropy(means, B); });
+    columns.insert(columns.end(), stress.begin(), stress.end());
+    const Estimate difference = jackknife(columns, [B](std::span<const double> means) {
+        return measured_anisotropy(means.subspan(7)) - predicted_anisotropy(means.first(7), B);
+    });
+    Json entry = {{"predicted", described(predicted)}, {"measured_minus_predicted", described(difference)}};
+    entry["agree"] = difference.standard_error
+                         ? Json(std::fabs(difference.value) <= agreement * *difference.standard_error)
+                         : Json(nullptr);
+    return entry;
+}
+
+}  // namespace
+
+ProductionWindow production_window(const Scene& scene, const SeriesTable& series) {
+    const std::vector<double>& time = series.column("time");
+    ProductionWindow window;
+    if (scene.time.equilibration) {
+        window.equilibration_time = *scene.time.equilibration;
+        // Rows are means over the steps before them: the first row of the window begins at the end of equilibration.
+        while (window.first_row < time.size() && time[window.first_row] <= window.equilibration_time * (1.0 + 1e-12))
+            ++window.first_row;
+        return window;
+    }
+    // The order may still be drifting when the pressure has settled, so the later start counts. But its own slow
+    // fluctuations leave few independent samples even in equilibrium: whether it was reached, the pressure says.
+    const Equilibration by_pressure = detect_equilibration(series.column("pressure_collision"));
+    const Equilibration by_order = detect_equilibration(series.column("nematic_order"));
+    window.first_row = std::max(by_pressure.start, by_order.start);
+    window.equilibrated = by_pressure.reached;
+    window.equilibration_time = window.first_row == 0 ? 0.0 : time[window.first_row - 1];
+    return window;
+}
+
+Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTable& series, double run_max_overlap) {
+    const ProductionWindow window = production_window(scene, series);
+    const std::size_t first = window.first_row;
+    const std::string stress_unit = unit_of(scene.units.system, dimension::stress);
+    const Rods& rods = simulation.rods();
+    const bool thermal = simulation.settings().kT > 0.0;
+    const auto average_of = [&](const char* name) { return average(from_row(series.column(name), first)); };
+    const Columns stress = window_columns(series, first, stress_column_names);
+
+    Json summary;
+    summary["volume_fraction"] = total_volume(rods) / simulation.box().volume();
+    summary["rods"] = rods.size();
+    summary["steps"] = simulation.clock().step;
+    summary["time"] = simulation.clock().time;
+    summary["time_step"] = simulation.settings().time_step;
+    if (thermal) summary["Z"] = described(average_of("Z"), "");
+    summary["pressure"] = described(average_of("pressure"), stress_unit);
+    summary["pressure_collision"] = described(average_of("pressure_collision"), stress_unit);
+    summary["stress_collision"] = tensor_entry(stress, stress_unit);
+    summary["nematic_order"] = described(average_of("nematic_order"), "");
+    summary["anisotropy"] = described(jackknife(stress, measured_anisotropy));
+    summary["equilibration_time"] = window.equilibration_time;
+    summary["equilibrated"] = window.equilibrated;
+    summary["production_rows"] = series.rows() - std::min(first, series.rows());
+    summary["max_overlap"] = run_max_overlap / *std::max_element(rods.diameter.begin(), rods.diameter.end());
+    Json oracles = Json::object();
+    if (thermal && scene.motion.self_propulsion == 0.0 && all_alike(rods))
+        oracles["anisotropy"] = anisotropy_oracle(series, first, rods, stress);
+    summary["oracles"] = oracles;
+    return summary;
+}
+
+std::string summary_text(const Json& summary) {
+    std::string text;
+    const auto line = [&](const char* key, const char* name) {
+        if (!summary.contains(key)) return;
+        const Json& entry = summary[key];
+        const std::string unit = entry.value("unit", "");
+        const std::string mean =
+            entry["mean"].is_null() ? "not defined" : fmt::format("{:.5g}", entry["mean"].get<double>());
+        if (entry["standard_error"].is_null())
+            text += fmt::format("{:20} = {} {} (no error bar: {})\n", name, mean, unit,
+                                entry.value("no_standard_error_because", "not defined"));
+        else
+            text += fmt::format("{:20} = {} +- {:.2g} {} (n_eff {:.0f})\n", name, mean,
+                                entry["standard_error"].get<double>(), unit, entry["n_eff"].get<double>());
+    };
+    line("Z", "Z");
+    line("pressure", "pressure");
+    line("pressure_collision", "collision pressure");
+    line("nematic_order", "nematic order S");
+    line("anisotropy", "stress anisotropy");
+    text +=
+        fmt::format("{:20} = {:.4g}{}\n", "equilibration time", summary["equilibration_time"].get<double>(),
+                    summary["equilibrated"].get<bool>() ? "" : "   WARNING: equilibrium was not reached; run longer");
+    text += fmt::format("{:20} = {:.2e} D\n", "largest overlap", summary["max_overlap"].get<double>());
+    if (summary["oracles"].contains("anisotropy")) {
+        const Json& oracle = summary["oracles"]["anisotropy"];
+        if (oracle["agree"] == Json(false))
+            text += fmt::format(
+                "WARNING: the stress anisotropy differs from the equilibrium prediction by {:.3g} +- {:.2g}\n",
+                oracle["measured_minus_predicted"]["mean"].get<double>(),
+                oracle["measured_minus_predicted"]["standard_error"].get<double>());
+    }
+    return text;
+}
