@@ -12,7 +12,7 @@ namespace jostle {
 ///
 /// Two rods meet at their nearest points. Nearly parallel ones can turn into each other at both ends of the stretch
 /// along which they lie side by side, so they get the ends of that stretch as contacts as well
-/// (docs/decisions/two-point-contacts.md):
+/// (docs/decisions/0003-two-point-contacts.md):
 ///
 ///          o------------------o            sin(angle) < 0.15: ends within reach are added
 ///     ============================ i       if both ends are as far away as the nearest points, to 5e-4 D,

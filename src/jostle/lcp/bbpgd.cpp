@@ -51,6 +51,26 @@ double next_step_length(const StepProducts& products, BarzilaiBorwein rule, std:
     return use_bb1 ? products.ss / products.sy : products.sy / products.yy;
 }
 
+/// Tells when the iteration runs in circles: no new best residual for a while.
+class CycleWatch {
+public:
+    explicit CycleWatch(double residual) : best_(residual) {}
+    /// Whether the short step should be taken now.
+    bool circling(double residual) {
+        ++since_best_;
+        if (residual < best_) {
+            best_ = residual;
+            since_best_ = 0;
+        }
+        return since_best_ >= patience && since_best_ % 2 == 0;
+    }
+
+private:
+    static constexpr int patience = 20;
+    double best_;
+    int since_best_ = 0;
+};
+
 /// Why the iteration ended without reaching the tolerance.
 ///
 /// A solution has gamma.A.gamma = -b.gamma. If no velocities of the rods open all contacts, the energy has no lower
@@ -86,6 +106,7 @@ LcpResult solve_bbpgd(const LcpProblem& problem, const LcpSettings& settings, st
         step_length = first_step_length(problem, now);
         ++result.iterations;
     }
+    CycleWatch watch(result.residual);
     Iterate next{std::vector<double>(count), std::vector<double>(count)};
     while (finite && result.residual > settings.tolerance && result.iterations < settings.max_iterations) {
         parallel_for(
@@ -102,7 +123,8 @@ LcpResult solve_bbpgd(const LcpProblem& problem, const LcpSettings& settings, st
         result.residual = lcp_residual(problem, settings.residual, now.gamma, now.velocity);
         finite = std::isfinite(result.residual);
         if (products.ss == 0.0) break;
-        step_length = next_step_length(products, settings.step_rule, result.iterations, step_length);
+        const BarzilaiBorwein rule = watch.circling(result.residual) ? BarzilaiBorwein::bb2 : settings.step_rule;
+        step_length = next_step_length(products, rule, result.iterations, step_length);
         // Keeping the best iterate costs a copy, so only where the search has become long.
         if (result.iterations >= 200 && result.residual < best_residual) {
             best = now;

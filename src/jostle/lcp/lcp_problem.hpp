@@ -8,7 +8,7 @@
 
 namespace jostle {
 
-/// Find gamma with  0 <= A gamma + b  perp  gamma >= 0  (theory, eq. 3), A symmetric positive semi-definite.
+/// Find gamma with  0 <= A gamma + b  perp  gamma >= 0  (theory, eq. 2.5), A symmetric positive semi-definite.
 ///
 /// Equivalently: minimise 1/2 gamma.A.gamma + b.gamma over gamma >= 0. gamma need not be unique, A gamma is.
 struct LcpProblem {

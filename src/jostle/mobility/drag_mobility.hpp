@@ -10,7 +10,7 @@ namespace jostle {
 /// A rod's own mobility, from its length and diameter.
 using DragLaw = std::function<RodMobility(double length, double diameter)>;
 
-/// Every rod feels its own drag only: M is block diagonal, one block a rod (PHYSICS section 2).
+/// Every rod feels its own drag only: M is block diagonal, one block a rod (theory, eq. 2.9).
 ///
 /// M F = [parallel n n + perpendicular (I - n n)] F,  rotational (I - n n) T; its square root has the square roots of
 /// the three coefficients in their places. Spin about the axis n is left out: torque along n gives nothing.

@@ -6,7 +6,7 @@
 namespace jostle {
 
 /// Brownian velocities U = sqrt(2 kT/dt) B xi with B B^T = M: over a step dt, displacements of covariance 2 kT dt M
-/// (PHYSICS section 2; the thermal drift kT div M vanishes for a mobility that couples no two rods).
+/// (theory, eq. 2.1; the thermal drift kT div M vanishes for a mobility that couples no two rods).
 ///
 /// xi are six standard normal numbers per rod, a function of (seed, step, id) alone: (force x, y, z, torque x) are draw
 /// 0 of Stream::brownian, (torque y, z) the first two of draw 1.

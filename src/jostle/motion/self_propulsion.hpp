@@ -4,7 +4,7 @@
 
 namespace jostle {
 
-/// Every rod swims along its axis n with the same speed: U = U_0 n (PHYSICS section 4, E4).
+/// Every rod swims along its axis n with the same speed: U = U_0 n (theory, eq. 2.1).
 class SelfPropulsion final : public Motion {
 public:
     /// speed U_0 (length/time), of either sign; not finite: InputError (key "motion.self_propulsion").

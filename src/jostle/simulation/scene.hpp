@@ -68,7 +68,7 @@ struct Scene {
     } motion;
 
     struct ContactTable {
-        bool brownian_correction = true;  // shift (4) and true gap after the known motion, PHYSICS section 3
+        bool brownian_correction = true;  // shift and true gap after the known motion (theory, eq. 3.3)
         std::optional<double> range;  // "auto" (empty): from the step; a length: at least all pairs with a smaller gap
         double overlap_limit = 0.2;   // in D; a larger overlap after a step ends the run (exit 3)
         bool operator==(const ContactTable&) const = default;

@@ -2,14 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "jostle/contact/find_contacts.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/math/random.hpp"
 #include "jostle/mobility/drag_mobility.hpp"
+#include "jostle/motion/brownian_motion.hpp"
 #include "jostle/simulation/largest_overlap.hpp"
 #include "jostle/simulation/push_apart.hpp"
+#include "jostle/simulation/simulation.hpp"
 
 namespace jostle {
 
@@ -18,8 +22,16 @@ namespace {
 /// Overlaps below this (in D) in a start read from a file are taken for rounding of the file's decimals.
 constexpr double file_overlap = 1e-3;
 
-Vec3 random_axis(const RandomKey& key) {
-    const auto u = uniform4(key, 1);
+/// Draws of a rod's place before what still overlaps is pushed apart.
+constexpr std::uint32_t largest_draws = 100;
+
+/// Brownian steps after pushing apart: how many, their rms (in D), and the tolerance of their contact problems (in D).
+constexpr int shakes = 150;
+constexpr double shaking_step = 0.15;
+constexpr double shaking_tolerance = 1e-3;
+
+Vec3 random_axis(const RandomKey& key, std::uint32_t draw) {
+    const auto u = uniform4(key, 2 * draw + 1);
     const double z = 2.0 * u[0] - 1.0;
     const double radius = std::sqrt(1.0 - z * z), angle = 2.0 * std::numbers::pi * u[1];
     return normalised({radius * std::cos(angle), radius * std::sin(angle), z});
@@ -32,9 +44,34 @@ DragMobility pushing_mobility(bool turning) {
     });
 }
 
+/// Rods that were pushed apart lie in contact far more often than in equilibrium, and forget it only after moving by
+/// about a diameter. Brownian steps much larger than those of a run, which need not be accurate, take them there
+/// quickly.
+void shake(Rods& rods, const Box& box, std::uint64_t seed) {
+    auto mobility = std::make_unique<DragMobility>(pushing_mobility(true));
+    mobility->update(rods);
+    SimulationSettings settings;
+    settings.seed = seed;
+    settings.kT = 1.0;
+    const double rms = shaking_step * rods.diameter.front();
+    settings.time_step = 0.5 * rms * rms;  // unit mobility and kT: rms step sqrt(2 dt)
+    settings.lcp.tolerance = shaking_tolerance * rods.diameter.front();
+    settings.lcp.max_iterations = 1000;
+    std::vector<std::unique_ptr<Motion>> motions;
+    motions.push_back(std::make_unique<BrownianMotion>(settings.kT, *mobility));
+    const Clock before_step_0{std::uint64_t{1} << 39, 0.0};  // random numbers of their own
+    Simulation simulation(box, std::move(rods), before_step_0, std::move(mobility), std::move(motions), settings);
+    for (int k = 0; k < shakes && simulation.step().status == LcpStatus::converged; ++k) continue;
+    rods = simulation.rods();
+}
+
 Rods pushed_apart(Rods rods, const Box& box, bool turning, const Scene& scene) {
     DragMobility mobility = pushing_mobility(turning);
-    const PushApartResult result = push_apart(rods, box, mobility);
+    PushApartResult result = push_apart(rods, box, mobility);
+    if (result.apart && result.rounds > 0 && turning) {
+        shake(rods, box, scene.seed);
+        result = push_apart(rods, box, mobility);
+    }
     if (!result.apart) {
         throw InputError(
             {.key = "rods.start",
@@ -49,14 +86,35 @@ Rods pushed_apart(Rods rods, const Box& box, bool turning, const Scene& scene) {
     return rods;
 }
 
+/// Of every two rods that overlap the one with the higher id.
+std::vector<bool> rods_to_draw_again(const Rods& rods, const Box& box) {
+    const std::vector<double> no_reach(rods.size(), 0.0);
+    NeighbourList neighbours(0.0);
+    neighbours.update(rods, box, no_reach);
+    Contacts overlaps;
+    find_contacts(rods, box, neighbours, no_reach, overlaps);
+    std::vector<bool> again(rods.size(), false);
+    for (const Contact& overlap : overlaps.contact) again[overlap.j] = true;
+    return again;
+}
+
+/// Rods at random places, those that overlap one of a lower id drawn anew: while they are dilute this leaves them as in
+/// equilibrium to first order in the density, where pushing them apart would leave too many touching.
 Rods scattered(const Scene& scene, const Box& box, const std::optional<Vec3>& common_axis) {
     Rods rods;
-    for (std::uint64_t id = 0; id < scene.rods.count; ++id) {
-        const RandomKey key{scene.seed, 0, Stream::start, id};
-        const auto u = uniform4(key, 0);
-        const Vec3 centre{u[0] * box.edges.x, u[1] * box.edges.y, u[2] * box.edges.z};
-        rods.push_back(id, centre, common_axis ? *common_axis : random_axis(key), scene.rods.length,
-                       scene.rods.diameter);
+    for (std::uint64_t id = 0; id < scene.rods.count; ++id)
+        rods.push_back(id, {}, common_axis.value_or(Vec3{}), scene.rods.length, scene.rods.diameter);
+    std::vector<bool> again(rods.size(), true);
+    for (std::uint32_t draw = 0; draw < largest_draws; ++draw) {
+        for (std::size_t i = 0; i < rods.size(); ++i) {
+            if (!again[i]) continue;
+            const RandomKey key{scene.seed, 0, Stream::start, rods.id[i]};
+            const auto u = uniform4(key, 2 * draw);
+            rods.centre[i] = {u[0] * box.edges.x, u[1] * box.edges.y, u[2] * box.edges.z};
+            if (!common_axis) rods.axis[i] = random_axis(key, draw);
+        }
+        again = rods_to_draw_again(rods, box);
+        if (std::find(again.begin(), again.end(), true) == again.end()) break;
     }
     return rods;
 }

@@ -146,7 +146,7 @@ void check_packing(const Scene& scene) {
 }
 
 void check_mobility(const Scene& scene) {
-    // b = 2 ln(2 L/D) - 1 > 0, PHYSICS section 2: below, the drag across and along the axis is negative
+    // b = 2 ln(2 L/D) - 1 > 0, theory, eq. 2.10: below, the drag across and along the axis is negative
     const double limit = std::exp(0.5) / 2.0;
     const double aspect_ratio = scene.rods.length / scene.rods.diameter;
     if (scene.mobility.model == MobilityModel::slender_body && !(aspect_ratio > limit))

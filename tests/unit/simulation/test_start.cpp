@@ -1,0 +1,95 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "jostle/error/input_error.hpp"
+#include "jostle/simulation/largest_overlap.hpp"
+#include "jostle/simulation/start.hpp"
+#include "jostle/statistics/order_parameter.hpp"
+
+using namespace jostle;
+
+namespace {
+
+Scene scene_of(std::uint64_t count, double length, StartKind start) {
+    Scene scene;
+    scene.rods.count = count;
+    scene.rods.length = length;
+    scene.rods.start = start;
+    return scene;
+}
+
+Box box_of(const Scene& scene, double volume_fraction, const Vec3& shape = {1, 1, 1}) {
+    const double volume =
+        static_cast<double>(scene.rods.count) * rod_volume(scene.rods.length, scene.rods.diameter) / volume_fraction;
+    const double scale = std::cbrt(volume / (shape.x * shape.y * shape.z));
+    return {scale * shape, {true, true, true}};
+}
+
+}  // namespace
+
+TEST_CASE("random starts reach phi = 0.40 at L/D = 5 and 0.50 for spheres, without overlap and without order") {
+    struct Case {
+        double length, volume_fraction;
+        Vec3 shape;
+    };
+    for (const auto& [length, volume_fraction, shape] : {Case{0.0, 0.50, {1, 1, 1}}, Case{5.0, 0.40, {1, 1, 1}},
+                                                         Case{5.0, 0.25, {6, 1, 1}}, Case{1.0, 0.45, {1, 1, 1}}}) {
+        CAPTURE(length);
+        const Scene scene = scene_of(250, length, StartKind::random);
+        const Box box = box_of(scene, volume_fraction, shape);
+        const Rods rods = make_start(scene, box);
+        CHECK(rods.size() == 250);
+        CHECK(largest_overlap(rods, box) == 0.0);
+        // S of 250 random axes is 0.05 +- 0.014; 0.15 is seven standard deviations away.
+        CHECK(nematic_order(rods.axis).order < 0.15);
+        for (std::size_t i = 0; i < rods.size(); ++i) {
+            CHECK(rods.id[i] == i);
+            CHECK(std::fabs(norm(rods.axis[i]) - 1.0) < 1e-12);
+        }
+    }
+}
+
+TEST_CASE("a start is reproducible from the seed, and another seed gives another") {
+    Scene scene = scene_of(100, 5.0, StartKind::random);
+    const Box box = box_of(scene, 0.2);
+    const Rods first = make_start(scene, box), second = make_start(scene, box);
+    CHECK(first.centre == second.centre);
+    CHECK(first.axis == second.axis);
+    scene.seed = 2;
+    CHECK_FALSE(make_start(scene, box).centre == first.centre);
+}
+
+TEST_CASE("aligned starts keep their axis, any axis, up to phi = 0.50") {
+    Scene scene = scene_of(200, 5.0, StartKind::aligned);
+    scene.rods.axis = {1, 2, 0.5};
+    const Box box = box_of(scene, 0.50);
+    const Rods rods = make_start(scene, box);
+    CHECK(largest_overlap(rods, box) == 0.0);
+    CHECK(nematic_order(rods.axis).order == doctest::Approx(1.0).epsilon(1e-9));
+}
+
+TEST_CASE("lattice starts fit close to their packing limit, and say so beyond it") {
+    Scene scene = scene_of(216, 0.0, StartKind::lattice);
+    CHECK(largest_overlap(make_start(scene, box_of(scene, 0.52)), box_of(scene, 0.52)) <= 1e-12);  // simple cubic: pi/6
+    CHECK_THROWS_AS(make_start(scene, box_of(scene, 0.53)), InputError);
+    scene = scene_of(180, 5.0, StartKind::lattice);
+    scene.rods.axis = {0, 0, 1};
+    const Box box = box_of(scene, 0.5, {1, 1, 2});
+    const Rods rods = make_start(scene, box);
+    CHECK(rods.size() == 180);
+    CHECK(largest_overlap(rods, box) <= 1e-12);
+    scene.rods.axis = {1, 1, 0};
+    CHECK_THROWS_AS(make_start(scene, box), InputError);
+}
+
+TEST_CASE("rods from a file must not overlap") {
+    const Scene scene = scene_of(0, 5.0, StartKind::file);
+    const Box box{{20, 20, 20}, {true, true, true}};
+    Rods rods;
+    rods.push_back(0, {5, 5, 5}, {1, 0, 0}, 5.0, 1.0);
+    rods.push_back(1, {25, 6.5, 5}, {1, 0, 0}, 5.0, 1.0);  // outside: wrapped to x = 5
+    CHECK(make_start(scene, box, rods).centre[1].x == doctest::Approx(5.0));
+    rods.centre[1].y = 5.9;
+    CHECK_THROWS_AS(make_start(scene, box, rods), InputError);
+}

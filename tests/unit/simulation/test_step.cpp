@@ -1,0 +1,150 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "../contact/assemblies.hpp"
+#include "jostle/simulation/assemble.hpp"
+#include "jostle/simulation/largest_overlap.hpp"
+#include "jostle/simulation/start.hpp"
+#include "jostle/simulation/time_step_correction.hpp"
+
+using namespace jostle;
+
+namespace {
+
+/// Two spheres of diameter 1 swimming towards each other along x, without noise: kT = 0.
+///
+///      o ->        <- o         U_0 = 2, mobility mu = 1/(3 pi), dt = 0.01
+Scene head_on() {
+    Scene scene;
+    scene.rods.length = 0.0;
+    scene.motion.brownian = false;
+    scene.motion.self_propulsion = 2.0;
+    scene.time.step = 0.01;
+    return scene;
+}
+
+Rods two_spheres(double distance) {
+    Rods rods;
+    rods.push_back(0, {5, 5, 5}, {1, 0, 0}, 0.0, 1.0);
+    rods.push_back(1, {5 + distance, 5, 5}, {-1, 0, 0}, 0.0, 1.0);
+    return rods;
+}
+
+const Box box{{10, 10, 10}, {true, true, true}};
+const double pi = std::acos(-1.0);
+
+}  // namespace
+
+TEST_CASE("two spheres head-on: they stop at touching, and push with U_0/mobility") {
+    const Scene scene = head_on();
+    Simulation simulation = assemble(scene, box, two_spheres(1.03), {});
+    // First step: the gap of 0.03 closes by 2 U_0 dt = 0.04 unless forces hold the last 0.01 back.
+    StepReport report = simulation.step();
+    REQUIRE(report.status == LcpStatus::converged);
+    CHECK(simulation.rods().centre[1].x - simulation.rods().centre[0].x == doctest::Approx(1.0).epsilon(1e-5));
+    // From then on the spheres stand, each held by the force U_0/mu = 3 pi mu D U_0 = 6 pi.
+    report = simulation.step();
+    CHECK(report.active_contacts == 1);
+    CHECK(simulation.contact_solution().gamma[0] == doctest::Approx(6.0 * pi).epsilon(1e-3));
+    CHECK(simulation.rods().centre[0].x == doctest::Approx(5.015).epsilon(1e-5));
+    // sigma = (r_2 - r_1) F: only xx, diameter times force.
+    CHECK(report.collision_virial(0, 0) == doctest::Approx(6.0 * pi).epsilon(1e-3));
+    CHECK(std::fabs(report.collision_virial(1, 1)) < 1e-12);
+}
+
+TEST_CASE("spheres that swim apart feel nothing") {
+    Scene scene = head_on();
+    scene.motion.self_propulsion = -2.0;
+    Simulation simulation = assemble(scene, box, two_spheres(1.0), {});
+    const StepReport report = simulation.step();
+    CHECK(report.active_contacts == 0);
+    CHECK(norm(report.collision_virial) == 0.0);
+    CHECK(simulation.rods().centre[0].x == doctest::Approx(4.98));
+}
+
+TEST_CASE("collisions beyond the first reach are found: a sphere flung through a row of others pushes all of them") {
+    // Self-propulsion moves sphere 0 by 0.5 D in one step; the others do not move by themselves, but each pushes the
+    // next, which no reach from the known motion foresees.
+    Rods rods;
+    const std::size_t count = 8;
+    for (std::size_t k = 0; k < count; ++k)
+        rods.push_back(k, {1.0 + 1.05 * static_cast<double>(k), 5, 5}, {1, 0, 0}, 0.0, 1.0);
+    struct OnlyFirst final : Motion {
+        void add_to(Velocities& known, const Rods&, const StepContext&) const override { known.linear[0].x += 0.5; }
+    };
+    std::vector<std::unique_ptr<Motion>> motions;
+    motions.push_back(std::make_unique<OnlyFirst>());
+    Scene scene = head_on();
+    SimulationSettings settings;
+    settings.time_step = 1.0;
+    settings.lcp.tolerance = 1e-9;
+    Simulation simulation(box, rods, {}, make_mobility(scene, rods), std::move(motions), settings);
+    const StepReport report = simulation.step();
+    CHECK(report.status == LcpStatus::converged);
+    CHECK(report.solves > 1);
+    CHECK(largest_overlap(simulation.rods(), box) < 1e-6);
+    CHECK(simulation.rods().centre[count - 1].x >= 1.0 + 1.05 * static_cast<double>(count - 1));
+}
+
+TEST_CASE("no pair overlaps after any step, against brute force: rods and spheres, also in thin boxes") {
+    struct Case {
+        double length, volume_fraction;
+        Vec3 edges;
+        std::uint64_t seed;
+    };
+    for (const auto& [length, volume_fraction, edges, seed] :
+         {Case{0.0, 0.45, {6, 6, 6}, 1}, Case{5.0, 0.30, {9, 9, 9}, 2}, Case{5.0, 0.20, {24, 4.0, 3.5}, 3},
+          Case{2.0, 0.30, {12, 2.4, 6}, 4}}) {
+        CAPTURE(length);
+        Scene scene;
+        scene.seed = seed;
+        scene.rods.length = length;
+        scene.rods.count =
+            static_cast<std::uint64_t>(volume_fraction * edges.x * edges.y * edges.z / rod_volume(length, 1.0));
+        scene.rods.start = edges.y < length ? StartKind::aligned : StartKind::random;
+        scene.time.rms_step = 0.03;
+        const Box small{edges, {true, true, true}};
+        Simulation simulation = assemble(scene, small, make_start(scene, small), {});
+        for (int step = 0; step < 40; ++step) {
+            const StepReport report = simulation.step();
+            REQUIRE(report.status == LcpStatus::converged);
+            // What linearisation leaves at this step (docs/decisions/0003): far below the rms step of 0.03.
+            for (const auto& pair : test::brute_force_pairs(simulation.rods(), small, 0.0)) CHECK(pair.gap > -0.015);
+        }
+    }
+}
+
+TEST_CASE("the correction vanishes without thermal motion, and shifts by c sigma with it") {
+    CHECK(brownian_shift(0.0, 0.1, 2.0) == 0.0);
+    CHECK(brownian_shift(1.0, 0.5, 1.0) == doctest::Approx(0.5825971579390107));
+}
+
+TEST_CASE("a failed step leaves rods and clock as they were") {
+    Scene scene = head_on();
+    scene.solver.max_iterations = 1;
+    Simulation simulation = assemble(scene, box, two_spheres(1.0), {});
+    const StepReport report = simulation.step();
+    CHECK(report.status == LcpStatus::iteration_limit);
+    CHECK(simulation.clock().step == 0);
+    CHECK(simulation.rods().centre[0] == Vec3{5, 5, 5});
+}
+
+TEST_CASE("all step rules of the solver, and the paper's residual, give the same stress") {
+    Scene scene;
+    scene.rods.count = 60;
+    scene.rods.length = 5.0;
+    scene.time.rms_step = 0.03;
+    scene.solver.tolerance = 1e-8;
+    const Box small{{9, 9, 9}, {true, true, true}};
+    const Rods start = make_start(scene, small);
+    std::vector<Mat3> virials;
+    for (const StepRule rule : {StepRule::bb1, StepRule::bb2, StepRule::alternating}) {
+        scene.solver.step_rule = rule;
+        virials.push_back(assemble(scene, small, start, {}).step().collision_virial);
+    }
+    scene.solver.residual = ResidualKind::paper;
+    virials.push_back(assemble(scene, small, start, {}).step().collision_virial);
+    REQUIRE(norm(virials[0]) > 1.0);
+    for (const Mat3& virial : virials) CHECK(norm(virial - virials[0]) < 1e-4 * norm(virials[0]));
+}
