@@ -142,11 +142,13 @@ private:
     void show_progress(bool force = false) {
         const SeriesTable& series = files_.series();
         const Rods& rods = simulation_.rods();
-        const double steps = std::max(1.0, sums_.steps);
+        const auto last = [&](const char* column) {
+            return series.rows() == 0 ? std::nan("") : series.column(column).back();
+        };
         progress_.show(
             {simulation_.clock().step, simulation_.clock().time, total_volume(rods) / simulation_.box().volume(),
-             series.rows() == 0 ? std::nan("") : series.column("Z").back(), sums_.run_max_overlap / smallest_diameter(),
-             sums_.iterations / steps, sums_.contacts / steps, length_.fraction_done(series.rows())},
+             last("Z"), sums_.run_max_overlap / smallest_diameter(), last("iterations"), last("contacts"),
+             length_.fraction_done(series.rows())},
             force);
     }
 

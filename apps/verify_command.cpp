@@ -4,6 +4,7 @@
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/io/checkpoint.hpp"
+#include "jostle/io/checksum.hpp"
 #include "jostle/io/h5md_writer.hpp"
 #include "jostle/io/run_directory.hpp"
 #include "jostle/io/scene_reader.hpp"
@@ -23,9 +24,22 @@ std::uint64_t count_frames(const std::string& path) {
     return frames;
 }
 
-void verify_series(const std::string& path, const Checkpoint& checkpoint) {
-    const UnitSystem units = parse_scene(checkpoint.scene, "scene of the checkpoint").units.system;
-    SeriesFile::require_prefix(path, series_columns(units), checkpoint.series_bytes, checkpoint.series_hash);
+void verify_prefix(const std::string& path, std::uint64_t bytes, std::uint64_t hash) {
+    const std::string content = read_file(path);
+    if (content.size() < bytes)
+        throw refused_file(path, "the file is shorter than the checkpoint says", "Start anew with --fresh");
+    if (checksum(std::string_view(content).substr(0, bytes)) != hash)
+        throw refused_file(path, "the rows up to the checkpoint are not those that were written",
+                           "Start anew with --fresh");
+}
+
+/// The files that the checkpoint stands for, up to where they had come.
+void verify_growing_files(const std::string& folder, const Checkpoint& checkpoint) {
+    verify_prefix(folder + "/series.csv", checkpoint.series_bytes, checkpoint.series_hash);
+    if (checkpoint.trajectory_bytes > 0)
+        TrajectoryJournal::require_frames(folder + "/trajectory.journal", checkpoint.trajectory_bytes);
+    if (checkpoint.contacts_bytes > 0)
+        verify_prefix(folder + "/contacts.csv", checkpoint.contacts_bytes, checkpoint.contacts_hash);
 }
 
 }  // namespace
@@ -37,7 +51,7 @@ ExitCode verify_command(const std::string& folder) {
     for (const char* name : {"checkpoint.previous", "checkpoint"}) {
         if (!file_exists(path(name))) continue;
         const Checkpoint checkpoint = read_checkpoint(path(name));
-        verify_series(path("series.csv"), checkpoint);
+        verify_growing_files(folder, checkpoint);
         std::printf("%s: sound, step %llu\n", name, static_cast<unsigned long long>(checkpoint.step));
     }
     if (file_exists(path("series.csv")))

@@ -71,19 +71,6 @@ private:
     int since_best_ = 0;
 };
 
-/// Why the iteration ended without reaching the tolerance.
-///
-/// A solution has gamma.A.gamma = -b.gamma. If no velocities of the rods open all contacts, the energy has no lower
-/// bound, and gamma runs off along a direction with A gamma ~ 0 and b.gamma < 0 (Farkas' lemma), so the first becomes
-/// small beside the second.
-LcpStatus failure(const LcpProblem& problem, const Iterate& iterate) {
-    const double along_constant = -sum_of_products(problem.constant, iterate.gamma);
-    const double along_velocity = sum_of_products(iterate.velocity, iterate.gamma);  // gamma.A.gamma + b.gamma
-    if (!std::isfinite(along_constant) || !std::isfinite(along_velocity)) return LcpStatus::not_finite;
-    const double energy = along_velocity + along_constant;
-    return energy < 0.5 * along_constant ? LcpStatus::infeasible : LcpStatus::iteration_limit;
-}
-
 }  // namespace
 
 LcpResult solve_bbpgd(const LcpProblem& problem, const LcpSettings& settings, std::span<const double> start) {
@@ -131,17 +118,13 @@ LcpResult solve_bbpgd(const LcpProblem& problem, const LcpSettings& settings, st
             best_residual = result.residual;
         }
     }
-    if (!finite) {
-        result.status = LcpStatus::not_finite;
-    } else if (result.residual > settings.tolerance) {
-        result.status = failure(problem, now);
-        if (best_residual < result.residual && !best.gamma.empty()) {
-            now = std::move(best);
-            result.residual = best_residual;
-        }
+    if (result.residual > settings.tolerance && best_residual < result.residual && !best.gamma.empty()) {
+        now = std::move(best);
+        result.residual = best_residual;
     }
     result.solution = std::move(now.gamma);
     result.velocity = std::move(now.velocity);
+    result.status = lcp_status(problem, settings, result);
     return result;
 }
 

@@ -22,4 +22,16 @@ double lcp_residual(const LcpProblem& problem, LcpResidual kind, std::span<const
            });
 }
 
+LcpStatus lcp_status(const LcpProblem& problem, const LcpSettings& settings, const LcpResult& result) {
+    if (!std::isfinite(result.residual)) return LcpStatus::not_finite;
+    if (result.residual <= settings.tolerance) return LcpStatus::converged;
+    const auto along_gamma = [&](std::span<const double> values) {
+        return parallel_sum<double>(values.size(), [&](std::size_t l) { return values[l] * result.solution[l]; });
+    };
+    const double along_constant = -along_gamma(problem.constant);
+    const double energy = along_gamma(result.velocity) + along_constant;  // gamma.A.gamma
+    if (!std::isfinite(along_constant) || !std::isfinite(energy)) return LcpStatus::not_finite;
+    return energy < 0.5 * along_constant ? LcpStatus::infeasible : LcpStatus::iteration_limit;
+}
+
 }  // namespace jostle

@@ -57,4 +57,11 @@ struct LcpResult {
 double lcp_residual(const LcpProblem& problem, LcpResidual kind, std::span<const double> gamma,
                     std::span<const double> velocity);
 
+/// What a solver's last iterate amounts to: `result` with its solution, velocity and residual filled in.
+///
+/// A solution has gamma.A.gamma = -b.gamma. If no velocities of the rods open all contacts, the energy has no lower
+/// bound, and gamma runs off along a direction with A gamma ~ 0 and b.gamma < 0 (Farkas' lemma), so the first becomes
+/// small beside the second.
+LcpStatus lcp_status(const LcpProblem& problem, const LcpSettings& settings, const LcpResult& result);
+
 }  // namespace jostle

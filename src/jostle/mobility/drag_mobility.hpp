@@ -22,6 +22,7 @@ public:
     void update(const Rods& rods) override;
     void apply(const Rods& rods, const Forces& forces, Velocities& velocities) const override;
     void apply_square_root(const Rods& rods, const Forces& normals, Velocities& velocities) const override;
+    bool couples_rods() const override { return false; }
     RodMobility of_rod(std::size_t i) const override { return rod_mobility_[i]; }
 
 private:

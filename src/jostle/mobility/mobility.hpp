@@ -33,6 +33,9 @@ public:
     /// to the factor sqrt(2 kT / dt).
     virtual void apply_square_root(const Rods& rods, const Forces& normals, Velocities& velocities) const = 0;
 
+    /// Whether a force on one rod moves others. If not, `of_rod` says everything.
+    virtual bool couples_rods() const = 0;
+
     /// The diagonal block of rod `i`: its own mobility.
     virtual RodMobility of_rod(std::size_t i) const = 0;
 };

@@ -47,6 +47,7 @@ Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock) 
     settings.time_step = time_step(scene, *mobility, rods);
     settings.brownian_correction = scene.contact.brownian_correction;
     settings.range = scene.contact.range.value_or(0.0);
+    settings.method = scene.solver.method;
     const bool paper = scene.solver.residual == ResidualKind::paper;
     settings.lcp.residual = paper ? LcpResidual::paper : LcpResidual::length;
     settings.lcp.tolerance = paper ? scene.solver.tolerance : scene.solver.tolerance * scene.rods.diameter;

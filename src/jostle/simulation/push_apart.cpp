@@ -3,10 +3,9 @@
 #include <algorithm>
 
 #include "jostle/contact/find_contacts.hpp"
-#include "jostle/lcp/bbpgd.hpp"
 #include "jostle/math/rotation.hpp"
 #include "jostle/parallel/parallel_for.hpp"
-#include "jostle/simulation/delassus_operator.hpp"
+#include "jostle/simulation/contact_solver.hpp"
 
 namespace jostle {
 
@@ -60,7 +59,8 @@ PushApartResult push_apart(Rods& rods, const Box& box, Mobility& mobility, int l
         settings.tolerance = tolerance * thinnest;
         settings.max_iterations = iterations_each_round;
         // A rough solution still leads apart; only the last rounds need to be, and are, solved to the tolerance.
-        const LcpResult solved = solve_bbpgd({matrix, b, 1.0}, settings);
+        const LcpResult solved = solve_contact_problem(contact_matrix, mobility, matrix, {matrix, b, 1.0},
+                                                       SolverMethod::automatic, settings);
         if (solved.status == LcpStatus::not_finite) return result;
         matrix.velocities(solved.solution, forces, velocities);
         move(rods, box, velocities, largest_move * thinnest);

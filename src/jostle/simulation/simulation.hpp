@@ -8,6 +8,7 @@
 #include "jostle/mobility/mobility.hpp"
 #include "jostle/motion/motion.hpp"
 #include "jostle/rods/box.hpp"
+#include "jostle/simulation/contact_solver.hpp"
 #include "jostle/simulation/step_report.hpp"
 
 namespace jostle {
@@ -24,7 +25,8 @@ struct SimulationSettings {
     double kT = 0.0;                  ///< of the Brownian motion; 0 where there is none
     bool brownian_correction = true;  ///< shift and true gap (theory, eq. 3.3), moments of the stress at touching
     double range = 0.0;               ///< contacts with a smaller gap are always taken; 0: as the step demands
-    LcpSettings lcp;                  ///< tolerance as a length
+    SolverMethod method = SolverMethod::automatic;
+    LcpSettings lcp;  ///< tolerance as a length
 };
 
 /// The contact forces of the last step.

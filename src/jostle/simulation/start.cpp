@@ -25,9 +25,7 @@ constexpr double file_overlap = 1e-3;
 /// Draws of a rod's place before what still overlaps is pushed apart.
 constexpr std::uint32_t largest_draws = 100;
 
-/// Brownian steps after pushing apart: how many, their rms (in D), and the tolerance of their contact problems (in D).
-constexpr int shakes = 150;
-constexpr double shaking_step = 0.15;
+/// Of the contact problems while shaking, in D.
 constexpr double shaking_tolerance = 1e-3;
 
 Vec3 random_axis(const RandomKey& key, std::uint32_t draw) {
@@ -44,24 +42,34 @@ DragMobility pushing_mobility(bool turning) {
     });
 }
 
+/// A stretch of Brownian steps after pushing apart.
+struct Shaking {
+    int steps;
+    double rms;  ///< of a step, in D
+    bool corrected;
+};
+
 /// Rods that were pushed apart lie in contact far more often than in equilibrium, and forget it only after moving by
 /// about a diameter. Brownian steps much larger than those of a run, which need not be accurate, take them there
-/// quickly.
-void shake(Rods& rods, const Box& box, std::uint64_t seed) {
+/// quickly. The time-step correction comes in once the rods are loose: its shift asks for gaps that they do not have
+/// before.
+constexpr std::array<Shaking, 2> shaking = {{{100, 0.15, false}, {100, 0.06, true}}};
+
+void shake(Rods& rods, const Box& box, const Shaking& stretch, Clock clock, std::uint64_t seed) {
     auto mobility = std::make_unique<DragMobility>(pushing_mobility(true));
     mobility->update(rods);
     SimulationSettings settings;
     settings.seed = seed;
     settings.kT = 1.0;
-    const double rms = shaking_step * rods.diameter.front();
+    const double rms = stretch.rms * rods.diameter.front();
     settings.time_step = 0.5 * rms * rms;  // unit mobility and kT: rms step sqrt(2 dt)
+    settings.brownian_correction = stretch.corrected;
     settings.lcp.tolerance = shaking_tolerance * rods.diameter.front();
     settings.lcp.max_iterations = 1000;
     std::vector<std::unique_ptr<Motion>> motions;
     motions.push_back(std::make_unique<BrownianMotion>(settings.kT, *mobility));
-    const Clock before_step_0{std::uint64_t{1} << 39, 0.0};  // random numbers of their own
-    Simulation simulation(box, std::move(rods), before_step_0, std::move(mobility), std::move(motions), settings);
-    for (int k = 0; k < shakes && simulation.step().status == LcpStatus::converged; ++k) continue;
+    Simulation simulation(box, std::move(rods), clock, std::move(mobility), std::move(motions), settings);
+    for (int k = 0; k < stretch.steps && simulation.step().status == LcpStatus::converged; ++k) continue;
     rods = simulation.rods();
 }
 
@@ -69,8 +77,12 @@ Rods pushed_apart(Rods rods, const Box& box, bool turning, const Scene& scene) {
     DragMobility mobility = pushing_mobility(turning);
     PushApartResult result = push_apart(rods, box, mobility);
     if (result.apart && result.rounds > 0 && turning) {
-        shake(rods, box, scene.seed);
-        result = push_apart(rods, box, mobility);
+        std::uint64_t step = std::uint64_t{1} << 39;  // random numbers of its own, far from those of the run
+        for (const Shaking& stretch : shaking) {
+            shake(rods, box, stretch, {step, 0.0}, scene.seed);
+            result = push_apart(rods, box, mobility);
+            step += static_cast<std::uint64_t>(stretch.steps);
+        }
     }
     if (!result.apart) {
         throw InputError(

@@ -4,7 +4,6 @@
 #include <chrono>
 
 #include "jostle/contact/find_contacts.hpp"
-#include "jostle/lcp/bbpgd.hpp"
 #include "jostle/math/rotation.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/simulation/delassus_operator.hpp"
@@ -115,8 +114,9 @@ void Simulation::solve_contacts(StepReport& report) {
     const DelassusOperator matrix(contact_matrix, *mobility_);
     const std::vector<double> constant = gap_velocities_without_forces(matrix.diagonal());
     const bool again = report.solves > 0;
-    LcpResult result = solve_bbpgd({matrix, constant, settings_.time_step}, settings_.lcp,
-                                   again ? std::span<const double>(solution_.gamma) : std::span<const double>{});
+    LcpResult result =
+        solve_contact_problem(contact_matrix, *mobility_, matrix, {matrix, constant, settings_.time_step},
+                              settings_.method, settings_.lcp, again ? solution_.gamma : std::span<const double>{});
     solution_.gamma = std::move(result.solution);
     matrix.velocities(solution_.gamma, solution_.forces, solution_.velocities);
     report.status = result.status;
