@@ -133,9 +133,10 @@ bool is_run_directory(const std::string& path) {
         if (file_exists(path + "/" + name)) return true;
     const std::string lock = path + "/lock";
     if (!file_exists(lock)) return false;
-    // An empty lock is one whose process was killed before it wrote its number.
+    // A lock may end early, or be empty: the process was killed, or the disk was full, before it had written its
+    // number.
     const std::string content = read_file(lock);
-    return content.empty() || content.starts_with(lock_mark);
+    return content.starts_with(lock_mark) || std::string_view(lock_mark).starts_with(content);
 }
 
 std::string move_aside(const std::string& path) {

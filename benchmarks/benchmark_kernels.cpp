@@ -1,0 +1,128 @@
+// The parts that a step spends its time in, each alone on one thread; each_takes is the time per item.
+
+#include <benchmark/benchmark.h>
+
+#include <string>
+
+#include "jostle/contact/find_contacts.hpp"
+#include "jostle/contact/segment_distance.hpp"
+#include "jostle/math/random.hpp"
+#include "jostle/motion/brownian_motion.hpp"
+#include "jostle/simulation/delassus_operator.hpp"
+#include "settled.hpp"
+
+using namespace jostle;
+
+namespace {
+
+constexpr double reach = 0.1;   ///< of each rod, in D: about what a step of rms 0.03 D asks for
+constexpr double travel = 0.4;  ///< of the neighbour list, in D
+
+/// Sets each_takes (seconds), given on how many items one pass over the benchmark's body worked.
+void count_items(benchmark::State& state, std::size_t items_each_pass) {
+    using benchmark::Counter;
+    state.counters["items"] = static_cast<double>(items_each_pass);
+    state.counters["each_takes"] =
+        Counter(static_cast<double>(items_each_pass), Counter::kIsIterationInvariantRate | Counter::kInvert);
+}
+
+/// The contacts of a settled crowd as it lies now.
+struct Found {
+    explicit Found(const Simulation& simulation)
+        : rods(simulation.rods()),
+          box(simulation.box()),
+          reaches(rods.size(), reach * rods.diameter.front()),
+          neighbours(travel * rods.diameter.front()) {
+        neighbours.update(rods, box, reaches);
+        find_contacts(rods, box, neighbours, reaches, contacts);
+    }
+
+    const Rods& rods;
+    const Box& box;
+    std::vector<double> reaches;
+    NeighbourList neighbours;
+    Contacts contacts;
+};
+
+void distance_of_segments(benchmark::State& state) {
+    struct Pair {
+        Vec3 separation, axis_i, axis_j;
+    };
+    const auto vector_of = [](std::uint64_t id, std::uint32_t draw) {
+        const auto u = uniform4({.id = id}, draw);
+        return Vec3{u[0] - 0.5, u[1] - 0.5, u[2] - 0.5};
+    };
+    std::vector<Pair> pairs;
+    for (std::uint64_t id = 0; id < 4096; ++id)
+        pairs.push_back({6.0 * vector_of(id, 0), normalised(vector_of(id, 1)), normalised(vector_of(id, 2))});
+    for (auto unused : state) {
+        double sum = 0.0;
+        for (const Pair& pair : pairs)
+            sum += squared_norm(nearest_points(pair.separation, pair.axis_i, 2.5, pair.axis_j, 2.5).separation);
+        benchmark::DoNotOptimize(sum);
+    }
+    count_items(state, pairs.size());
+}
+
+void application_of_matrix(benchmark::State& state, const Crowd& crowd) {
+    const Simulation& simulation = settled(crowd);
+    const Found found(simulation);
+    const ContactMatrix contact_matrix(found.contacts, found.rods);
+    const DelassusOperator matrix(contact_matrix, simulation.mobility());
+    std::vector<double> gamma(matrix.size(), 1.0), rates(matrix.size());
+    for (auto unused : state) {
+        matrix.apply(gamma, rates);
+        benchmark::DoNotOptimize(rates.data());
+    }
+    count_items(state, matrix.size());
+}
+
+void build_neighbour_list(benchmark::State& state, const Crowd& crowd) {
+    Found found(settled(crowd));
+    for (auto unused : state) {
+        found.neighbours.invalidate();
+        benchmark::DoNotOptimize(found.neighbours.update(found.rods, found.box, found.reaches));
+    }
+    state.counters["pairs"] = static_cast<double>(found.neighbours.pairs().size());
+    count_items(state, found.rods.size());
+}
+
+void find_contacts_on_list(benchmark::State& state, const Crowd& crowd) {
+    Found found(settled(crowd));
+    for (auto unused : state) {
+        found.contacts.clear();
+        benchmark::DoNotOptimize(find_contacts(found.rods, found.box, found.neighbours, found.reaches, found.contacts));
+    }
+    state.counters["contacts"] = static_cast<double>(found.contacts.size());
+    count_items(state, found.neighbours.pairs().size());
+}
+
+void brownian_noise(benchmark::State& state, const Crowd& crowd) {
+    const Simulation& simulation = settled(crowd);
+    const BrownianMotion motion(1.0, simulation.mobility());
+    Velocities known(simulation.rods().size());
+    StepContext context{1, 0, simulation.settings().time_step};
+    for (auto unused : state) {
+        ++context.step;
+        motion.add_to(known, simulation.rods(), context);
+        benchmark::DoNotOptimize(known.linear.data());
+    }
+    count_items(state, known.size());
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+    benchmark::Initialize(&count, words);
+    if (benchmark::ReportUnrecognizedArguments(count, words)) return 2;
+    benchmark::RegisterBenchmark("segment_distance (pairs)", distance_of_segments);
+    for (const Crowd& crowd : {Crowd{5.0, 0.2}, Crowd{5.0, 0.4}}) {
+        const std::string name = name_of(crowd);
+        benchmark::RegisterBenchmark(("apply_A/" + name + " (contacts)").c_str(), application_of_matrix, crowd);
+        benchmark::RegisterBenchmark(("build_neighbour_list/" + name + " (rods)").c_str(), build_neighbour_list, crowd);
+        benchmark::RegisterBenchmark(("find_contacts/" + name + " (pairs)").c_str(), find_contacts_on_list, crowd);
+    }
+    benchmark::RegisterBenchmark("brownian_noise (rods)", brownian_noise, Crowd{5.0, 0.2});
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}

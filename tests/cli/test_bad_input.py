@@ -1,0 +1,202 @@
+"""Input that jostle refuses: exit 2, one line that says where and why, and nothing on the disk has changed."""
+
+import pytest
+
+from jostle_command import (BAD_INPUT, DONE, RODS, Verbatim, changed, command, place_of, require_one_line, scene_text,
+                            snapshot, write_scene)
+
+NUMBER = "a number in D"
+# table, key, value, what the message says
+VALUES = [
+    ("rods", "lenght", 5.0, "is an unknown key", 'Did you mean "length"?'),
+    ("time", "steps", 0.01, "is an unknown key", 'Did you mean "step"?'),
+    ("box", "viscosity", 1.0, "is an unknown key", 'The key "viscosity" belongs to [fluid]'),
+    ("fluids", "viscosity", 1.0, "is an unknown table", 'Did you mean "fluid"?'),
+    ("rods", "length", "five", "is a text, the wrong type", NUMBER),
+    ("rods", "length", "5.0", "is a text, the wrong type", "Remove the quotes: 5.0"),
+    ("rods", "length", True, "is true or false, the wrong type", NUMBER),
+    ("rods", "length", [5.0], "is an array, the wrong type", NUMBER),
+    ("rods", "length", "2 um", "carries a unit, and the scene is in reduced units", 'set units.system = "micro"'),
+    ("rods", "count", 50.5, "is not a whole number", "at least 1"),
+    ("rods", "count", -50, "is negative", "at least 1"),
+    ("rods", "count", 0, "is outside the allowed range", "at least 1"),
+    ("output", "contacts", 1, "is a whole number, the wrong type", "true or false"),
+    ("output", "contacts", "true", "is a text, the wrong type", "Remove the quotes: true"),
+    ("rods", "start", "randon", "is not one of the words", 'Did you mean "random"?'),
+    ("mobility", "model", "slender", "is not one of the words", '"slender_body"'),
+    ("rods", "length", -2.0, "is negative", "at least 0"),
+    ("rods", "diameter", 0.0, "is zero", "greater than 0"),
+    ("fluid", "viscosity", -1.0, "is negative", "greater than 0"),
+    ("fluid", "kT", -1.0, "is negative", "at least 0"),
+    ("time", "step", -0.01, "is negative", "greater than 0"),
+    ("time", "equilibration", -1.0, "is negative", "at least 0"),
+    ("rods", "length", Verbatim("nan"), "is not a finite number", "at least 0"),
+    ("fluid", "kT", Verbatim("inf"), "is not a finite number", "at least 0"),
+    ("time", "production", Verbatim("-inf"), "is not a finite number", "greater than 0"),
+    ("box", "volume_fraction", Verbatim("nan"), "is not a finite number", "less than 1"),
+    ("box", "volume_fraction", 0.0, "is zero", "greater than 0"),
+    ("box", "volume_fraction", 1.5, "is outside the allowed range", "less than 1"),
+    ("box", "volume_fraction", 0.95, "cannot be packed", "a volume fraction of at most 0.8"),
+    ("box", "volume_fraction", 0.7, "is too dense for a random start", 'start = "aligned" or "lattice"'),
+    ("box", "periodic", [True, True], "has 2 elements", "three elements: x, y, z"),
+    ("box", "shape", [1.0, -1.0, 1.0], "is negative", "at least"),
+    ("solver", "tolerance", 0.5, "is outside the allowed range", "less than 0.1"),
+    ("solver", "max_iterations", 0, "is outside the allowed range", "at least 1"),
+    ("time", "production", 0.001, "is shorter than one step", "at least time.step = 0.02"),
+    ("time", "rms_step", 0.03, "is given beside time.step", "one of the two"),
+    ("rods", "axis", [1, 0, 0], "is not used with rods.start", 'Set start = "aligned"'),
+]
+
+
+def value_id(entry):
+    return f"{entry[0]}.{entry[1]}={entry[2]}"
+
+
+def refuse(folder, scene, *parts):
+    """`run` and `check` both refuse the scene, in a new folder and over a finished run, and change nothing."""
+    write_scene(folder, scene)
+    before = snapshot(folder)
+    require_one_line(command(folder, "check", "scene.toml"), *parts)
+    require_one_line(command(folder, "run", "scene.toml", "--out", "new/run"), *parts)
+    for options in ([], ["--fresh"]):
+        require_one_line(command(folder, "run", "scene.toml", "--out", "run", *options), *parts)
+    assert snapshot(folder) == before
+
+
+@pytest.mark.parametrize("entry", VALUES, ids=value_id)
+def test_value(finished_copy, entry):
+    table, key, value, *parts = entry
+    text = scene_text(changed(RODS, **{table: {key: value}}))
+    line, at = place_of(text, table, key).split(":")
+    if "is an unknown key" in parts:
+        at = "1"  # the key's own place
+    if "is an unknown table" in parts:
+        line, at = int(line) - 1, "2"
+    told = [] if "is an unknown table" in parts else [f"{table}.{key} = "]
+    refuse(finished_copy, text, f"jostle: scene.toml:{line}:{at}: ", *told, *parts)
+
+
+@pytest.mark.parametrize("table, key, example", [("rods", "count", "count = 2000"), ("rods", "length", "length = 5.0"),
+                                                 ("time", "production", "production = 50.0")])
+def test_missing_key(tmp_path, table, key, example):
+    write_scene(tmp_path, changed(RODS, **{table: {key: None}}))
+    line = scene_text(changed(RODS, **{table: {key: None}})).splitlines().index(f"[{table}]") + 1
+    require_one_line(command(tmp_path, "check", "scene.toml"), f"scene.toml:{line}:1: {table}.{key}: is missing",
+                     f"Add {example}")
+
+
+def test_thin_box(finished_copy):
+    scene = changed(RODS, box={"volume_fraction": None, "edges": [30.0, 30.0, 0.9]})
+    refuse(finished_copy, scene, f"scene.toml:{place_of(scene_text(scene), 'box', 'edges')}: box.edges = "
+           "[30.0, 30.0, 0.9]: makes the box thinner than a rod's diameter: edge z is 0.9",
+           "(allowed: edges of at least 1)", "Enlarge that edge")
+
+
+def test_slender_body_of_short_rods(finished_copy):
+    scene = changed(RODS, rods={"length": 0.8}, mobility={"model": "slender_body"})
+    refuse(finished_copy, scene, f"scene.toml:{place_of(scene_text(scene), 'mobility', 'model')}: mobility.model = "
+           '"slender_body": gives rods of L/D = 0.8 a negative drag', "(allowed: L/D greater than 0.824)",
+           'Use model = "finite_aspect_ratio"')
+    write_scene(finished_copy, changed(scene, rods={"length": 0.83}))
+    assert command(finished_copy, "check", "scene.toml").returncode == DONE
+
+
+TRUNCATED = {
+    "in a text": ('[rods]\ncount = 50\nlength = 2.0\nstart = "rand', "scene.toml:4:",
+                  "the file ends in the middle of an entry", "is the file cut short?"),
+    "in an array": ("[box]\nedges = [10.0, 10.", "scene.toml:2:", "the file ends in the middle of an entry"),
+    "after =": ("[rods]\ncount =", "scene.toml:2:", "rods.count: the file ends in the middle of an entry"),
+    "in a heading": ("seed = 1\n[rods", "scene.toml:2:", ""),
+    "before the end": ("[rods]\ncount = 50\nlength = 2.0\n[box]\nvolume_fraction = 0.2\n", "scene.toml:",
+                       "time.production: is missing"),
+    "empty": ("", "scene.toml:1:1: ", "is empty"),
+    "twice": ("seed = 1\nseed = 2\n", "scene.toml:2:", "is given twice"),
+}
+
+
+@pytest.mark.parametrize("name", TRUNCATED)
+def test_truncated_scene(finished_copy, name):
+    text, *parts = TRUNCATED[name]
+    refuse(finished_copy, text, *parts)
+
+
+def test_missing_scene(tmp_path):
+    write_scene(tmp_path, RODS)
+    for name in ("check", "run"):
+        require_one_line(command(tmp_path, name, "scenes.toml"), "scenes.toml: scene: there is no such file",
+                         'Did you mean "scene.toml"?')
+        require_one_line(command(tmp_path, name, "."), "is a directory")
+    (tmp_path / "binary.toml").write_bytes(b"\x00\x01\x02")
+    require_one_line(command(tmp_path, "check", "binary.toml"), "is not a text file")
+    assert sorted(entry.name for entry in tmp_path.iterdir()) == ["binary.toml", "scene.toml"]
+
+
+FILE_START = changed(RODS, rods={"count": None, "start": "file", "file": "rods.csv"},
+                     box={"volume_fraction": None, "edges": [12.0, 12.0, 12.0]})
+HEADER = "x,y,z,nx,ny,nz\n"
+RODS_FILES = {
+    "no such file": (None, "rods.csv: there is no such file"),
+    "empty": ("", "rods.csv"),
+    "no rods": (HEADER, "rods.csv", "the file holds no rods"),
+    "missing column": ("x,y,z,nx,ny\n1,1,1,1,0\n", 'rods.csv:1: the column "nz" is missing',
+                       "x,y,z,nx,ny,nz and optionally length,diameter"),
+    "unknown column": ("x,y,z,nx,ny,nz,mass\n1,1,1,1,0,0,2\n", 'rods.csv:1: "mass" is no column of a rods file'),
+    "column twice": ("x,y,z,nx,ny,nz,x\n1,1,1,1,0,0,2\n", 'rods.csv:1: the column "x" stands twice'),
+    "bad number": (HEADER + "1,1,1,1,0,0\n5,5,five,1,0,0\n", "rods.csv:3: ", '"five"', "z"),
+    "not finite": (HEADER + "1,1,1,1,0,0\n5,nan,5,1,0,0\n", "rods.csv:3: ", "nan", "y"),
+    "cell missing": (HEADER + "1,1,1,1,0,0\n5,5,5,1\n", "rods.csv:3: ", "ny"),
+    "no direction": (HEADER + "1,1,1,0,0,0\n", "rods.csv:2: ", "has no direction"),
+    "negative length": ("x,y,z,nx,ny,nz,length\n1,1,1,1,0,0,-2\n", "rods.csv:2: ", "length = -2 is negative"),
+    "no diameter": ("x,y,z,nx,ny,nz,diameter\n1,1,1,1,0,0,0\n", "rods.csv:2: ", "diameter = 0 is not positive"),
+    "overlap": (HEADER + "1,1,1,1,0,0\n1,1.5,1,1,0,0\n", "scene.toml", 'rods.file = "rods.csv"',
+                "overlap by up to 0.5", "(allowed: overlaps up to 0.001)"),
+    "overlap through the box": (HEADER + "6,6,0.2,1,0,0\n6,6,11.9,1,0,0\n", "overlap by up to 0.7"),
+    "too thick for the box": ("x,y,z,nx,ny,nz,diameter\n6,6,6,1,0,0,12.5\n", "thinner than a rod's diameter"),
+}
+
+
+@pytest.mark.parametrize("name", RODS_FILES)
+def test_rods_file(finished_copy, name):
+    text, *parts = RODS_FILES[name]
+    if text is not None:
+        (finished_copy / "rods.csv").write_text(text)
+    write_scene(finished_copy, FILE_START)
+    before = snapshot(finished_copy)
+    require_one_line(command(finished_copy, "run", "scene.toml", "--out", "new"), *parts)
+    require_one_line(command(finished_copy, "run", "scene.toml", "--out", "run", "--fresh"), *parts)
+    if "overlap" not in name:  # `check` makes no start, so it cannot know
+        require_one_line(command(finished_copy, "check", "scene.toml"), *parts)
+    assert snapshot(finished_copy) == before
+
+
+def test_rods_file_of_another_count(tmp_path):
+    (tmp_path / "rods.csv").write_text(HEADER + "1,1,1,1,0,0\n5,5,5,1,0,0\n")
+    write_scene(tmp_path, changed(FILE_START, rods={"count": 3}))
+    require_one_line(command(tmp_path, "run", "scene.toml", "--out", "run"), "scene.toml", "rods.count = 3", "2 rods")
+    assert not (tmp_path / "run").exists()
+
+
+COMMAND_LINES = [
+    [], ["run"], ["check"], ["verify"], ["walk", "scene.toml"], ["run", "scene.toml", "--thread", "1"],
+    ["run", "scene.toml", "--threads"], ["run", "scene.toml", "--threads", "0"],
+    ["run", "scene.toml", "--threads", "two"], ["run", "scene.toml", "--out"], ["run", "scene.toml", "other.toml"],
+    ["run", "scene.toml", "--json", "--quiet"], ["check", "scene.toml", "--out", "run"], ["--quiet"],
+]
+
+
+@pytest.mark.parametrize("arguments", COMMAND_LINES, ids=" ".join)
+def test_command_line(tmp_path, arguments):
+    write_scene(tmp_path, RODS)
+    before = snapshot(tmp_path)
+    result = command(tmp_path, *arguments)
+    assert result.returncode == BAD_INPUT, (result.returncode, result.stderr)
+    assert result.stdout == "" and result.stderr != ""
+    assert snapshot(tmp_path) == before
+
+
+def test_help_and_version(tmp_path):
+    for arguments in (["--help"], ["run", "--help"], ["check", "--help"], ["verify", "--help"], ["--version"]):
+        result = command(tmp_path, *arguments)
+        assert result.returncode == DONE and result.stdout != "" and result.stderr == ""
+    assert "Exit status: 0 done" in command(tmp_path, "--help").stdout
+    assert command(tmp_path, "--version").stdout.startswith("jostle ")

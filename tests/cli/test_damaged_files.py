@@ -1,0 +1,198 @@
+"""Files of a run that are truncated, damaged or of another run: found, told, exit 2, and nothing has changed."""
+
+import ctypes
+import shutil
+
+import pytest
+
+from jostle_command import (DONE, RODS, changed, checkpoint_step, command, datasets, finish, flip_bit, random_numbers,
+                            require_one_line, require_same_results, run, snapshot, write_scene)
+
+FLIPS = 12
+SEAL = 24  # bytes at the end of trajectory.h5: mark, length, checksum
+HEADER = 24  # bytes of a checkpoint before its payload
+
+
+def refuse(folder, *parts, verify=True):
+    """The run does not go on and `verify` finds the damage; nothing is touched."""
+    before = snapshot(folder)
+    require_one_line(run(folder), *parts)
+    if verify:
+        require_found(folder, parts[0])
+    assert snapshot(folder) == before, "the folder was touched"
+
+
+def require_found(folder, *parts):
+    """`verify` tells the damage in one line on stderr; on stdout it may have told what is sound."""
+    result = command(folder, "verify", "run")
+    assert all(": sound" in line for line in result.stdout.splitlines())
+    result.stdout = ""
+    require_one_line(result, *parts)
+
+
+def sealed(payload_and_header):
+    """A checkpoint with its checksum made new, as another version of the program would write it."""
+    library = ctypes.CDLL("libxxhash.so.0")
+    library.XXH3_64bits.restype = ctypes.c_uint64
+    library.XXH3_64bits.argtypes = (ctypes.c_char_p, ctypes.c_size_t)
+    content = bytes(payload_and_header)
+    return content + library.XXH3_64bits(content, len(content)).to_bytes(8, "little")
+
+
+@pytest.mark.parametrize("table, key, value", [("fluid", "viscosity", 2.0), ("rods", "count", 51),
+                                               ("time", "production", 4.0), ("solver", "tolerance", 2e-5)])
+def test_checkpoint_of_another_scene(torn_copy, table, key, value):
+    scene = changed(RODS, **{"seed": RODS["seed"], table: {key: value}})
+    write_scene(torn_copy, scene)
+    refuse(torn_copy, "run/checkpoint: the checkpoint is of another scene: line", "of the resolved scene was",
+           "give another folder with --out, or start again with --fresh", verify=False)
+
+
+def test_the_line_that_differs_is_named(finished_copy):
+    write_scene(finished_copy, changed(RODS, seed=8))
+    refuse(finished_copy, 'line 2 of the resolved scene was "seed = 7" and is "seed = 8"', verify=False)
+
+
+def test_scene_written_in_another_way_is_the_same(finished_copy, finished):
+    scene = (finished_copy / "scene.toml").read_text()
+    (finished_copy / "scene.toml").write_text("# the same\n" + scene.replace("length = 2.0", "length = 2"))
+    assert run(finished_copy).returncode == DONE
+    assert (finished_copy / "run/checkpoint").read_bytes() == (finished / "run/checkpoint").read_bytes()
+
+
+def test_checkpoint_of_another_version(torn_copy):
+    path = torn_copy / "run/checkpoint"
+    content = bytearray(path.read_bytes()[:-8])
+    assert sealed(content) == path.read_bytes(), "the checksum is that of the format"
+    content[8] = 2
+    path.write_bytes(sealed(content))
+    refuse(torn_copy, "run/checkpoint: the checkpoint has format version 2, this jostle reads version 1")
+
+
+@pytest.mark.parametrize("left", [0, 7, HEADER, 100, 0.5, -9, -1])
+def test_truncated_checkpoint(torn_copy, left):
+    path = torn_copy / "run/checkpoint"
+    content = path.read_bytes()
+    path.write_bytes(content[:int(left * len(content)) if isinstance(left, float) else left])
+    refuse(torn_copy, "run/checkpoint: the checkpoint is", "start again with --fresh")
+
+
+def test_checkpoint_with_bytes_after_it(torn_copy):
+    with open(torn_copy / "run/checkpoint", "ab") as file:
+        file.write(b"\0")
+    refuse(torn_copy, "run/checkpoint: the checkpoint is damaged")
+
+
+def test_something_else_in_place_of_the_checkpoint(torn_copy):
+    shutil.copy(torn_copy / "run/series.csv", torn_copy / "run/checkpoint")
+    refuse(torn_copy, "run/checkpoint: is not a checkpoint of jostle")
+
+
+def test_flipped_bits_in_the_checkpoint(torn_copy):
+    random = random_numbers()
+    path = torn_copy / "run/checkpoint"
+    size = path.stat().st_size
+    in_header = [8 * place + random.randrange(8) for place in (0, 8, 12, 16, 23)]
+    for bit in in_header + [random.randrange(8 * HEADER, 8 * size) for _ in range(FLIPS)]:
+        flip_bit(path, bit)
+        refuse(torn_copy, "run/checkpoint: ")
+        flip_bit(path, bit)
+
+
+def test_the_checkpoint_before_is_offered(torn_copy, torn):
+    """It is not taken without asking; removing the damaged one, as the message says, goes on from it."""
+    path = torn_copy / "run/checkpoint"
+    shutil.copy(path, torn_copy / "run/checkpoint.previous")
+    step = checkpoint_step(torn_copy / "run")
+    flip_bit(path, 8 * 500)
+    refuse(torn_copy, "run/checkpoint: the checkpoint is damaged", f"checkpoint.previous (step {step}), is sound",
+           "remove run/checkpoint to go on from there")
+    path.unlink()
+    result = run(torn_copy, "--walltime", "0:00:01")
+    assert f"going on from step {step}\n" in result.stderr
+    assert checkpoint_step(torn_copy / "run") == step + 1
+
+
+def checkpointed_bytes(folder, name):
+    """How much of a growing file the checkpoint of `torn` stands for: whole rows or frames up to its step."""
+    step = checkpoint_step(folder)
+    if name == "trajectory.journal":
+        frame = 72 + 52 * RODS["rods"]["count"] + 8
+        return 16 + frame * (1 + step // RODS["output"]["trajectory_every"])
+    lines = (folder / name).read_bytes().splitlines(keepends=True)
+    return sum(len(line) for k, line in enumerate(lines) if k == 0 or int(line.split(b",")[0]) <= step)
+
+
+GROWING = ["series.csv", "contacts.csv", "trajectory.journal"]
+
+
+@pytest.mark.parametrize("name", GROWING)
+def test_flipped_bits_before_the_checkpoint(torn_copy, name):
+    """All of the files go on beyond the checkpoint; finding one damaged must not cut the others."""
+    random = random_numbers()
+    path = torn_copy / "run" / name
+    size = checkpointed_bytes(torn_copy / "run", name)
+    assert 0 < size < path.stat().st_size
+    for bit in [0, 8 * size - 1] + [random.randrange(8 * size) for _ in range(FLIPS)]:
+        flip_bit(path, bit)
+        refuse(torn_copy, f"run/{name}", "start again with --fresh")
+        flip_bit(path, bit)
+
+
+@pytest.mark.parametrize("name", GROWING)
+def test_truncated_before_the_checkpoint(torn_copy, name):
+    path = torn_copy / "run" / name
+    size = checkpointed_bytes(torn_copy / "run", name)
+    for left in (0, 10, size // 2, size - 1):
+        path.write_bytes(path.read_bytes()[:left])
+        refuse(torn_copy, f"run/{name}", "--fresh")
+
+
+@pytest.mark.parametrize("name", GROWING)
+def test_missing(torn_copy, name):
+    (torn_copy / "run" / name).unlink()
+    refuse(torn_copy, f"run/{name}: there is no such file")
+
+
+@pytest.mark.parametrize("name", GROWING)
+def test_damage_beyond_the_checkpoint_is_cut_away(torn_copy, name):
+    path = torn_copy / "run" / name
+    size = checkpointed_bytes(torn_copy / "run", name)
+    flip_bit(path, 8 * size + 8 * 40)
+    step = checkpoint_step(torn_copy / "run")
+    result = run(torn_copy, "--walltime", "0:00:01")
+    assert f"going on from step {step}\n" in result.stderr, result.stderr
+    assert command(torn_copy, "verify", "run").returncode == DONE
+
+
+def test_flipped_bits_in_trajectory(finished_copy, finished):
+    """`verify` finds every one; running the finished run again makes the file anew from its journal."""
+    random = random_numbers()
+    path = finished_copy / "run/trajectory.h5"
+    size = path.stat().st_size
+    for bit in [8 * (size - 1)] + [random.randrange(8 * (size - SEAL)) for _ in range(FLIPS)]:
+        flip_bit(path, bit)
+        before = snapshot(finished_copy)
+        require_found(finished_copy, "run/trajectory.h5: the trajectory is damaged",
+                      "Make it again from the journal by running the same command")
+        assert snapshot(finished_copy) == before
+        flip_bit(path, bit)
+    flip_bit(path, 8 * (size // 2))
+    assert run(finished_copy).returncode == DONE
+    assert datasets(path) == datasets(finished / "run/trajectory.h5")
+    require_same_results(finished_copy / "run", finished / "run")
+
+
+def test_truncated_trajectory(finished_copy):
+    path = finished_copy / "run/trajectory.h5"
+    content = path.read_bytes()
+    for left in (0, 100, len(content) // 2, len(content) - SEAL - 1):
+        path.write_bytes(content[:left])
+        require_found(finished_copy, "run/trajectory.h5: the trajectory is damaged")
+
+
+def test_fresh_helps_out_of_any_damage(finished_copy, finished):
+    for name in ("checkpoint", "series.csv", "trajectory.journal"):
+        (finished_copy / "run" / name).write_bytes(b"")
+    finish(finished_copy, "--fresh")
+    require_same_results(finished_copy / "run", finished / "run", same_command=False)

@@ -1,0 +1,122 @@
+"""Ctrl-C, SIGTERM and --walltime: the run stops after the step at hand, and the same command goes on from there."""
+
+import json
+import signal
+import subprocess
+import time
+
+import pytest
+
+from jostle_command import (BAD_INPUT, DONE, RODS, STOPPED, changed, checkpoint_step, column, command, finish, kill,
+                            random_numbers, require_every_row, require_same_results, rows_of, run,
+                            start, wait_until, with_steps, write_scene)
+
+ENDLESS = changed(with_steps(RODS, 10**6), output={"checkpoint_every": 10**7, "contacts": False})
+STEPS = 3005
+
+
+@pytest.fixture(scope="module")
+def reference(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("reference")
+    write_scene(folder, with_steps(RODS, STEPS))
+    began = time.monotonic()
+    return finish(folder), time.monotonic() - began
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_stop_and_go_on(tmp_path, reference, number):
+    folder, lasted = reference
+    random = random_numbers()
+    write_scene(tmp_path, with_steps(RODS, STEPS))
+    stops = 0
+    while True:
+        process = start(tmp_path)
+        try:
+            stdout, stderr = process.communicate(timeout=random.uniform(0.1, 0.4) * lasted)
+        except subprocess.TimeoutExpired:
+            _, stdout, stderr = kill(process, number)
+        if process.returncode == DONE:
+            break
+        assert process.returncode == STOPPED, (process.returncode, stderr)
+        stops += 1
+        assert stdout == ""
+        step = checkpoint_step(tmp_path / "run")
+        assert f"jostle: stopped at step {step} (signal {int(number)}); run the same command again" in stderr
+        record = json.loads((tmp_path / "run/run.json").read_text())
+        assert record["exit_reason"] == f"signal {int(number)}" and record["steps"] == step
+        assert len(record["sessions"]) == stops
+        assert f"checkpoint: sound, step {step}\n" in command(tmp_path, "verify", "run").stdout
+        assert rows_of(tmp_path / "run/series.csv") == step // 5
+        assert (tmp_path / "run/trajectory.h5").exists()
+    assert stops >= 1
+    require_same_results(tmp_path / "run", folder)
+    require_every_row(tmp_path / "run", 5, STEPS)
+    record = json.loads((tmp_path / "run/run.json").read_text())
+    assert record["exit_reason"] == "done" and record["steps"] == STEPS
+    first = [session["first_step"] for session in record["sessions"]]
+    last = [session["last_step"] for session in record["sessions"]]
+    assert first == [0, *last[:-1]], "the sessions join"
+
+
+def test_second_signal_ends_at_once(tmp_path):
+    """Two signals that wait for a process that was halted arrive together: no step, no checkpoint between them."""
+    write_scene(tmp_path, ENDLESS)
+    process = start(tmp_path)
+    wait_until(lambda: rows_of(tmp_path / "run/series.csv") > 2, process)
+    process.send_signal(signal.SIGSTOP)
+    process.send_signal(signal.SIGTERM)
+    process.send_signal(signal.SIGINT)
+    status, stdout, stderr = kill(process, signal.SIGCONT)
+    assert status == STOPPED
+    assert stdout == "" and "stopped at step" not in stderr
+    assert checkpoint_step(tmp_path / "run") == 0
+    assert json.loads((tmp_path / "run/run.json").read_text())["exit_reason"] == "running"
+    assert command(tmp_path, "verify", "run").returncode == DONE
+
+
+def test_walltime_is_kept(tmp_path):
+    write_scene(tmp_path, ENDLESS)
+    began = time.monotonic()
+    result = run(tmp_path, "--walltime", "0:00:03")
+    lasted = time.monotonic() - began
+    assert result.returncode == STOPPED, result.stderr
+    assert lasted < 3.0, "stopped too late"
+    assert lasted > 1.0, "stopped far too early"
+    step = checkpoint_step(tmp_path / "run")
+    assert f"stopped at step {step} (walltime)" in result.stderr
+    # Another run of it that was stopped in between has the same rows, as far as both go.
+    write_scene(tmp_path / "other", ENDLESS)
+    assert run(tmp_path / "other", "--walltime", "0:00:02").returncode == STOPPED
+    first_stop = rows_of(tmp_path / "other/run/series.csv")
+    process = start(tmp_path / "other")
+    wait_until(lambda: rows_of(tmp_path / "other/run/series.csv") > first_stop + 10, process)
+    assert kill(process, signal.SIGTERM)[0] == STOPPED
+    ours = (tmp_path / "run/series.csv").read_bytes()
+    theirs = (tmp_path / "other/run/series.csv").read_bytes()
+    both = min(len(ours), len(theirs))
+    assert ours[:both] == theirs[:both]
+    for folder in (tmp_path / "run", tmp_path / "other/run"):
+        require_every_row(folder, 5, 5 * rows_of(folder / "series.csv"))
+
+
+def test_walltime_then_to_the_end(tmp_path):
+    """A wall time of a second is over after one step; a few of these, then the rest."""
+    scene = with_steps(RODS, 60)
+    write_scene(tmp_path / "reference", scene)
+    reference = finish(tmp_path / "reference")
+    write_scene(tmp_path / "stopped", scene)
+    for step in range(1, 8):
+        assert run(tmp_path / "stopped", "--walltime", "0:00:01").returncode == STOPPED
+        assert checkpoint_step(tmp_path / "stopped/run") == step
+    assert run(tmp_path / "stopped", "--walltime", "10:00").returncode == DONE
+    require_same_results(tmp_path / "stopped/run", reference, same_command=False)
+    assert column(tmp_path / "stopped/run/series.csv", "step") == list(range(5, 61, 5))
+
+
+@pytest.mark.parametrize("text", ["3", "1:60", "1:00:60", "-1:00", "1:00 ", "one hour", ""])
+def test_walltime_that_is_none(tmp_path, text):
+    write_scene(tmp_path, RODS)
+    result = run(tmp_path, "--walltime", text)
+    assert result.returncode == BAD_INPUT
+    assert "--walltime" in result.stderr
+    assert not (tmp_path / "run").exists()
