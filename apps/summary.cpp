@@ -85,6 +85,25 @@ double predicted_anisotropy(std::span<const double> numbers, double B) {
     return anisotropy_ratio((numbers[6] - 1.0) * identity() + 2.0 * B * order);
 }
 
+double mean_of(const std::vector<double>& column) {
+    return average(column).mean;
+}
+
+/// The mean order tensor's eigenvector of the largest eigenvalue; which end of it is the head is arbitrary.
+Json mean_director(const Columns& order) {
+    std::array<double, 6> q{};
+    for (std::size_t k = 0; k < 6; ++k) q[k] = mean_of(order[k]);
+    const Vec3 director = symmetric_eigen(Mat3{{q[0], q[1], q[2], q[1], q[3], q[4], q[2], q[4], q[5]}}).vectors[2];
+    return {director.x, director.y, director.z};
+}
+
+/// Eigenvalues of the mean collision stress, ascending.
+Json mean_principal_stresses(const Columns& stress) {
+    Mat3 mean;
+    for (std::size_t k = 0; k < 9; ++k) mean.m[k] = mean_of(stress[k]);
+    return principal_stresses(mean);
+}
+
 bool all_alike(const Rods& rods) {
     const auto same = [](const std::vector<double>& values) {
         return std::all_of(values.begin(), values.end(), [&](double value) { return value == values.front(); });
@@ -154,7 +173,13 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     summary["pressure"] = described(average_of("pressure"), stress_unit);
     summary["pressure_collision"] = described(average_of("pressure_collision"), stress_unit);
     summary["stress_collision"] = tensor_entry(stress, stress_unit);
+    summary["stress_kinetic"] = {
+        {"mean", static_cast<double>(rods.size()) / simulation.box().volume() * simulation.settings().kT},
+        {"unit", stress_unit},
+        {"definition", "n kT, on the diagonal"}};
+    summary["principal_stresses_collision"] = {{"mean", mean_principal_stresses(stress)}, {"unit", stress_unit}};
     summary["nematic_order"] = described(average_of("nematic_order"), "");
+    summary["director"] = mean_director(window_columns(series, first, order_tensor_column_names));
     summary["anisotropy"] = described(jackknife(stress, measured_anisotropy));
     summary["equilibration_time"] = window.equilibration_time;
     summary["equilibrated"] = window.equilibrated;
