@@ -33,7 +33,7 @@ Population population_of(const Scene& scene, const std::optional<Rods>& from_fil
 
 /// Rough costs, from docs/performance.md: a step of one rod takes longer where there are more contacts.
 double seconds_per_rod_and_step(double volume_fraction) {
-    return (0.5 + 12.0 * volume_fraction * volume_fraction + 2.0 * volume_fraction) * 1e-6;
+    return (0.35 + 5.0 * volume_fraction + 8.0 * volume_fraction * volume_fraction) * 1e-6;
 }
 double bytes_per_rod(double volume_fraction) {
     return 900.0 + 6000.0 * volume_fraction;

@@ -133,7 +133,7 @@ private:
 
     std::string reason_to_stop() const {
         if (stop_request::signal_received() != 0) return fmt::format("signal {}", stop_request::signal_received());
-        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - began_;
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - options_.began;
         if (options_.wall_time && elapsed.count() + 3.0 * longest_checkpoint_ + 1.0 >= *options_.wall_time)
             return "walltime";
         return "";
@@ -216,7 +216,6 @@ private:
     RunRecord record_;
     ProgressLine progress_;
     double longest_checkpoint_ = 0.0;
-    std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
 std::string folder_for(const RunOptions& options) {

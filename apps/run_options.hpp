@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 
@@ -11,6 +12,7 @@ struct RunOptions {
     std::optional<double> wall_time;  ///< seconds; stop before it is over
     bool fresh = false;               ///< move an existing run aside, and start anew
     bool quiet = false;
-    bool json = false;         ///< print the summary as JSON, and nothing else
-    std::string command_line;  ///< as typed
+    bool json = false;  ///< print the summary as JSON, and nothing else
+    std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();  ///< wall time counts from here
+    std::string command_line;                                                        ///< as typed
 };
