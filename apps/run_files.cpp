@@ -1,6 +1,9 @@
 #include "run_files.hpp"
 
+#include <utility>
+
 #include "jostle/io/units.hpp"
+#include "jostle/rods/space_filling_order.hpp"
 #include "series_columns.hpp"
 
 using namespace jostle;
@@ -81,7 +84,9 @@ void RunFiles::append_row(const std::vector<double>& row) {
 }
 
 void RunFiles::append_frame(const Simulation& simulation) {
-    journal_->append(simulation.clock().step, simulation.clock().time, simulation.box(), simulation.rods());
+    const Rods& rods = simulation.rods();
+    journal_->append(simulation.clock().step, simulation.clock().time, simulation.box(),
+                     reordered(rods, id_order(rods)));
 }
 
 void RunFiles::append_contacts(const Simulation& simulation) {
@@ -90,8 +95,14 @@ void RunFiles::append_contacts(const Simulation& simulation) {
     for (std::size_t l = 0; l < contacts.size(); ++l) {
         const double force = simulation.contact_solution().gamma[l];
         if (force <= 0.0) continue;
-        const Contact& contact = contacts.contact[l];
-        const Image& image = contacts.image[l];
+        Contact contact = contacts.contact[l];
+        Image image = contacts.image[l];
+        if (rods.id[contact.i] > rods.id[contact.j]) {  // the smaller id first
+            std::swap(contact.i, contact.j);
+            std::swap(contact.arm_i, contact.arm_j);
+            contact.normal = -contact.normal;
+            for (std::int32_t& edges : image) edges = -edges;
+        }
         const std::vector<double> row = {static_cast<double>(simulation.clock().step),
                                          static_cast<double>(rods.id[contact.i]),
                                          static_cast<double>(rods.id[contact.j]),

@@ -1,64 +1,141 @@
-// One step of the simulation, by its phases: nanoseconds per rod and step, on one thread.
+// One step of the simulation, by its phases: nanoseconds per body and step. One CSV line a measurement.
 
-#include <benchmark/benchmark.h>
+#include <fmt/format.h>
 
-#include <string>
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
 
+#include "jostle/parallel/parallel_for.hpp"
 #include "settled.hpp"
 
 using namespace jostle;
 
 namespace {
 
-constexpr int measured_steps = 300;
+const char* const usage =
+    "usage: benchmark_step [--state NAME]... [--count N]... [--threads T]... [--steps S]\n"
+    "Measures every combination; without --state all states, without --count 2000 and 20000, without --threads 1.\n"
+    "Times are medians over the steps. --steps: 0 (default) as many as take about a second, at least 16.\n";
 
-/// The sums of what steps reported.
-struct Totals {
-    std::array<double, step_phase_count> seconds{};
-    double contacts = 0.0, active_contacts = 0.0, iterations = 0.0;
-
-    void add(const StepReport& report) {
-        for (std::size_t phase = 0; phase < step_phase_count; ++phase) seconds[phase] += report.seconds[phase];
-        contacts += static_cast<double>(report.contacts);
-        active_contacts += static_cast<double>(report.active_contacts);
-        iterations += static_cast<double>(report.iterations);
-    }
+struct Options {
+    std::vector<std::string> states;
+    std::vector<std::uint64_t> counts;
+    std::vector<int> threads;
+    std::uint64_t steps = 0;
 };
 
-void step(benchmark::State& state, const Crowd& crowd) {
-    Simulation& simulation = settled(crowd);
-    Totals totals;
-    for (auto unused : state) {
-        const StepReport report = simulation.step();
-        if (report.status != LcpStatus::converged) {
-            state.SkipWithError("a step was not solved");
-            return;
-        }
-        totals.add(report);
+template <class Number>
+Number number_from(const std::string& word) {
+    Number number{};
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (error != std::errc{} || end != word.data() + word.size() || number < 1)
+        throw std::invalid_argument("\"" + word + "\" is no number above 0");
+    return number;
+}
+
+Options read_options(int count, char** words) {
+    Options options;
+    for (int k = 1; k < count; k += 2) {
+        const std::string name = words[k];
+        if (k + 1 == count) throw std::invalid_argument("a value is missing after " + name);
+        const std::string value = words[k + 1];
+        if (name == "--state")
+            options.states.push_back(crowd_named(value).name);
+        else if (name == "--count")
+            options.counts.push_back(number_from<std::uint64_t>(value));
+        else if (name == "--threads")
+            options.threads.push_back(number_from<int>(value));
+        else if (name == "--steps")
+            options.steps = number_from<std::uint64_t>(value);
+        else
+            throw std::invalid_argument("unknown option " + name);
     }
-    const auto steps = static_cast<double>(state.iterations());
-    const auto rods = static_cast<double>(simulation.rods().size());
+    if (options.states.empty())
+        for (const Crowd& crowd : all_crowds()) options.states.push_back(crowd.name);
+    if (options.counts.empty()) options.counts = {2000, 20000};
+    if (options.threads.empty()) options.threads = {1};
+    return options;
+}
+
+/// Memory that the process holds now, in bytes.
+double resident_bytes() {
+    std::ifstream file("/proc/self/statm");
+    double total = 0.0, resident = 0.0;
+    file >> total >> resident;
+    return 4096.0 * resident;
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+StepReport checked_step(Simulation& simulation) {
+    StepReport report = simulation.step();
+    if (report.status != LcpStatus::converged) throw std::runtime_error("a step was not solved");
+    return report;
+}
+
+double seconds_of(const StepReport& report) {
     double sum = 0.0;
-    for (std::size_t phase = 0; phase < step_phase_count; ++phase) {
-        const double nanoseconds = 1e9 * totals.seconds[phase] / (steps * rods);
-        state.counters[std::string("ns_") + step_phase_names[phase]] = nanoseconds;
-        sum += nanoseconds;
+    for (const double seconds : report.seconds) sum += seconds;
+    return sum;
+}
+
+void measure(const std::string& state, std::uint64_t count, const std::vector<int>& threads, std::uint64_t steps) {
+    const double bytes_before = resident_bytes();
+    parallel::set_thread_count(1);
+    const auto simulation = settled(crowd_named(state), count);
+    parallel::set_thread_count(*std::max_element(threads.begin(), threads.end()));
+    double once = 0.0;
+    for (int k = 0; k < 20; ++k) once = seconds_of(checked_step(*simulation));
+    const auto rods = static_cast<double>(simulation->rods().size());
+    for (const int thread_count : threads) {
+        parallel::set_thread_count(thread_count);
+        const std::uint64_t wanted =
+            steps > 0 ? steps : std::clamp<std::uint64_t>(static_cast<std::uint64_t>(1.0 / once), 16, 2000);
+        std::vector<StepReport> reports;
+        for (std::uint64_t k = 0; k < wanted; ++k) reports.push_back(checked_step(*simulation));
+        // Means over steps: building the neighbour list, every tenth step or so, is a part of the cost.
+        std::array<double, step_phase_count> phase{};
+        double contacts = 0.0, active = 0.0, iterations = 0.0, solves = 0.0;
+        std::vector<double> whole;
+        for (const StepReport& report : reports) {
+            for (std::size_t k = 0; k < step_phase_count; ++k) phase[k] += report.seconds[k];
+            contacts += static_cast<double>(report.contacts);
+            active += static_cast<double>(report.active_contacts);
+            iterations += static_cast<double>(report.iterations);
+            solves += static_cast<double>(report.solves);
+            whole.push_back(seconds_of(report));
+        }
+        const auto total = static_cast<double>(wanted);
+        double mean = 0.0;
+        for (double& value : phase) mean += (value *= 1e9 / (total * rods));
+        fmt::print("{},{},{},{}", state, simulation->rods().size(), thread_count, wanted);
+        for (const double value : phase) fmt::print(",{:.1f}", value);
+        fmt::print(",{:.1f},{:.1f},{:.4f},{:.4f},{:.1f},{:.2f},{:.0f}\n", mean, 1e9 * median(whole) / rods,
+                   contacts / (total * rods), active / (total * rods), iterations / total, solves / total,
+                   (resident_bytes() - bytes_before) / rods);
+        std::fflush(stdout);
     }
-    state.counters["ns_step"] = sum;
-    state.counters["contacts_per_rod"] = totals.contacts / (steps * rods);
-    state.counters["active_per_rod"] = totals.active_contacts / (steps * rods);
-    state.counters["iterations"] = totals.iterations / steps;
 }
 
 }  // namespace
 
-int main(int count, char** words) {
-    benchmark::Initialize(&count, words);
-    if (benchmark::ReportUnrecognizedArguments(count, words)) return 2;
-    for (const Crowd& crowd : all_crowds())
-        benchmark::RegisterBenchmark(("step/" + name_of(crowd)).c_str(), step, crowd)
-            ->Iterations(measured_steps)
-            ->Unit(benchmark::kMillisecond);
-    benchmark::RunSpecifiedBenchmarks();
+int main(int count, char** words) try {
+    const Options options = read_options(count, words);
+    fmt::print("state,bodies,threads,steps");
+    for (const char* phase : step_phase_names) fmt::print(",{}_ns", phase);
+    fmt::print(",step_ns,median_step_ns,contacts_per_body,active_per_body,iterations,solves,bytes_per_body\n");
+    for (const std::string& state : options.states)
+        for (const std::uint64_t bodies : options.counts) measure(state, bodies, options.threads, options.steps);
     return 0;
+} catch (const std::exception& error) {
+    fmt::print(stderr, "benchmark_step: {}\n{}", error.what(), usage);
+    return 2;
 }

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
-#include <memory>
+#include <stdexcept>
 
-#include "jostle/parallel/parallel_for.hpp"
 #include "jostle/simulation/assemble.hpp"
 #include "jostle/simulation/start.hpp"
 
@@ -15,49 +14,99 @@ using namespace jostle;
 
 namespace {
 
+struct Assembly {
+    Box box;
+    Rods rods;
+};
+
 Scene scene_of(const Crowd& crowd) {
     Scene scene;
     scene.seed = 1;
     scene.box.volume_fraction = crowd.volume_fraction;
-    scene.rods.count = crowd_count;
+    scene.rods.count = settled_count;
     scene.rods.length = crowd.length;
-    scene.time.rms_step = crowd_rms_step;
+    scene.rods.start = crowd.start;
+    scene.rods.axis = {0, 0, 1};
+    scene.time.rms_step = rms_step;
     scene.time.production = 1.0;
+    if (crowd.self_propulsion > 0.0) {
+        Rods one;
+        one.push_back(0, {}, {1, 0, 0}, crowd.length, 1.0);
+        scene.motion.self_propulsion = crowd.self_propulsion * make_mobility(scene, one)->of_rod(0).parallel;
+    }
     return scene;
 }
 
-std::unique_ptr<Simulation> made(const Crowd& crowd) {
+Simulation simulation_of(const Scene& scene, Assembly assembly) {
+    return assemble(scene, assembly.box, std::move(assembly.rods), {});
+}
+
+const Assembly& settled_assembly(const Crowd& crowd) {
+    static std::map<std::string, Assembly> assemblies;
+    const auto found = assemblies.find(crowd.name);
+    if (found != assemblies.end()) return found->second;
     const Scene scene = scene_of(crowd);
-    const double volume =
-        static_cast<double>(crowd_count) * rod_volume(crowd.length, scene.rods.diameter) / crowd.volume_fraction;
-    const double edge = std::cbrt(volume);
+    const double edge =
+        std::cbrt(static_cast<double>(settled_count) * rod_volume(crowd.length, 1.0) / crowd.volume_fraction);
     const Box box{{edge, edge, edge}};
-    auto simulation = std::make_unique<Simulation>(assemble(scene, box, make_start(scene, box), {}));
-    for (int k = 0; k < settling_steps; ++k) {
-        if (simulation->step().status == LcpStatus::converged) continue;
-        fmt::print(stderr, "{}: a settling step was not solved\n", name_of(crowd));
+    Simulation simulation = simulation_of(scene, {box, make_start(scene, box)});
+    for (int k = 0; k < crowd.settling_steps; ++k) {
+        if (simulation.step().status == LcpStatus::converged) continue;
+        fmt::print(stderr, "{}: settling step {} was not solved\n", crowd.name, k);
         std::exit(1);
     }
-    return simulation;
+    return assemblies[crowd.name] = {box, simulation.rods()};
+}
+
+/// Copies side by side: the next number of times, as evenly as it divides, along x, y and z.
+Assembly copied(const Assembly& one, std::uint64_t times) {
+    const auto root = static_cast<std::uint64_t>(std::ceil(std::cbrt(static_cast<double>(times)) - 1e-9));
+    const std::uint64_t along_x = std::max<std::uint64_t>(root, 1);
+    const std::uint64_t along_y = std::max<std::uint64_t>(
+        static_cast<std::uint64_t>(
+            std::ceil(std::sqrt(static_cast<double>(times) / static_cast<double>(along_x)) - 1e-9)),
+        1);
+    const std::uint64_t along_z = (times + along_x * along_y - 1) / (along_x * along_y);
+    Assembly all{one.box, {}};
+    const std::array<std::uint64_t, 3> number = {along_x, along_y, along_z};
+    for (int k = 0; k < 3; ++k) all.box.edges[k] *= static_cast<double>(number[static_cast<std::size_t>(k)]);
+    for (std::uint64_t x = 0; x < along_x; ++x)
+        for (std::uint64_t y = 0; y < along_y; ++y)
+            for (std::uint64_t z = 0; z < along_z; ++z) {
+                const Vec3 offset = one.box.displacement(
+                    {static_cast<std::int32_t>(x), static_cast<std::int32_t>(y), static_cast<std::int32_t>(z)});
+                for (std::size_t i = 0; i < one.rods.size(); ++i)
+                    all.rods.push_back(all.rods.size(), one.rods.centre[i] + offset, one.rods.axis[i],
+                                       one.rods.length[i], one.rods.diameter[i]);
+            }
+    return all;
 }
 
 }  // namespace
 
-std::vector<Crowd> all_crowds() {
-    std::vector<Crowd> crowds;
-    for (const double length : {5.0, 0.0})
-        for (const double volume_fraction : {0.05, 0.2, 0.4}) crowds.push_back({length, volume_fraction});
+const std::vector<Crowd>& all_crowds() {
+    using enum StartKind;
+    static const std::vector<Crowd> crowds = {
+        {"rods/0.05", 5.0, 0.05, random, 0.0, 1000},     {"rods/0.10", 5.0, 0.10, random, 0.0, 1000},
+        {"rods/0.20", 5.0, 0.20, random, 0.0, 1000},     {"rods/0.30", 5.0, 0.30, random, 0.0, 1000},
+        {"rods/0.40", 5.0, 0.40, random, 0.0, 1000},     {"rods/nematic", 5.0, 0.55, lattice, 0.0, 1000},
+        {"rods/active", 5.0, 0.30, random, 300.0, 3000}, {"spheres/0.05", 0.0, 0.05, random, 0.0, 1000},
+        {"spheres/0.20", 0.0, 0.20, random, 0.0, 1000},  {"spheres/0.40", 0.0, 0.40, random, 0.0, 1000},
+        {"spheres/0.60", 0.0, 0.60, random, 0.0, 500},   {"spheres/0.63", 0.0, 0.63, random, 0.0, 200},
+    };
     return crowds;
 }
 
-std::string name_of(const Crowd& crowd) {
-    return fmt::format("{}/{:.2f}", crowd.length > 0.0 ? "rods" : "spheres", crowd.volume_fraction);
+const Crowd& crowd_named(const std::string& name) {
+    for (const Crowd& crowd : all_crowds())
+        if (crowd.name == name) return crowd;
+    throw std::out_of_range("no state of the name " + name);
 }
 
-Simulation& settled(const Crowd& crowd) {
-    static std::map<std::string, std::unique_ptr<Simulation>> simulations;
-    parallel::set_thread_count(1);
-    auto& simulation = simulations[name_of(crowd)];
-    if (!simulation) simulation = made(crowd);
-    return *simulation;
+std::unique_ptr<Simulation> settled(const Crowd& crowd, std::uint64_t count, SolverMethod method, double tolerance) {
+    Scene scene = scene_of(crowd);
+    scene.solver.method = method;
+    scene.solver.tolerance = tolerance;
+    const std::uint64_t times = (count + settled_count - 1) / settled_count;
+    return std::make_unique<Simulation>(simulation_of(scene, copied(settled_assembly(crowd), times)));
 }

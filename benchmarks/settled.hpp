@@ -1,25 +1,34 @@
 #pragma once
 
+#include <memory>
+#include <string>
 #include <vector>
 
+#include "jostle/simulation/scene.hpp"
 #include "jostle/simulation/simulation.hpp"
 
-/// A state to measure: bodies of one length (in D) in a cubic periodic box.
+/// A state to measure: bodies of diameter 1 in a cubic periodic box.
 struct Crowd {
+    std::string name;
     double length = 0.0;
     double volume_fraction = 0.0;
+    jostle::StartKind start = jostle::StartKind::random;
+    double self_propulsion = 0.0;  ///< U_0 D/(kT mobility along the axis): a Peclet number; 0 for passive bodies
+    int settling_steps = 1000;
 };
 
-inline constexpr std::uint64_t crowd_count = 2000;  ///< bodies
-inline constexpr double crowd_rms_step = 0.03;      ///< of a diameter
-inline constexpr int settling_steps = 1000;         ///< after a random start, before anything is measured
+inline constexpr std::uint64_t settled_count = 2000;  ///< bodies that are brought to rest; larger crowds are copies
+inline constexpr double rms_step = 0.03;              ///< of a diameter
 
-/// The crowds of the benchmarks: rods L/D = 5 and spheres, at the volume fractions 0.05, 0.2 and 0.4.
-std::vector<Crowd> all_crowds();
+/// rods/0.05 ... spheres/0.63, rods/nematic, rods/active.
+const std::vector<Crowd>& all_crowds();
 
-/// "rods/0.20" or "spheres/0.20".
-std::string name_of(const Crowd& crowd);
+/// The crowd of that name; std::out_of_range if there is none.
+const Crowd& crowd_named(const std::string& name);
 
-/// A simulation of the crowd that has made its settling steps, with one thread. Made once, and the same one is returned
-/// at every later call: it goes on from where it was left.
-jostle::Simulation& settled(const Crowd& crowd);
+/// A simulation of at least `count` bodies in that state: a start of 2000, made once, that has made its settling steps,
+/// copied side by side as often as needed. The copies, moved by noise of their own, forget each other within some tens
+/// of steps. Solved to `tolerance` (in D) by `method`.
+std::unique_ptr<jostle::Simulation> settled(const Crowd& crowd, std::uint64_t count = settled_count,
+                                            jostle::SolverMethod method = jostle::SolverMethod::automatic,
+                                            double tolerance = 1e-5);

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jostle/parallel/parallel_for.hpp"
+
 namespace jostle {
 
 namespace {
 
 /// At most this many cells a rod: more would only cost memory in a dilute assembly.
 constexpr double largest_cells_per_rod = 4.0;
-
-int floor_divide(int a, int b) {
-    return a >= 0 ? a / b : -((b - 1 - a) / b);
-}
 
 }  // namespace
 
@@ -43,11 +41,11 @@ CellList::CellList(const Rods& rods, const Box& box, double range) : periodic_(b
     begin_.assign(total + 1, 0);
     rods_.resize(rods.size());
     std::vector<std::uint32_t> cell_of_rod(rods.size());
-    Image unused;
-    for (std::size_t i = 0; i < rods.size(); ++i) {
-        cell_of_rod[i] = static_cast<std::uint32_t>(wrapped_cell(cell_of(rods.centre[i]), unused));
-        ++begin_[cell_of_rod[i] + 1];
-    }
+    parallel_for(rods.size(), [&](std::size_t i) {
+        const auto [x, y, z] = cell_of(rods.centre[i]);
+        cell_of_rod[i] = static_cast<std::uint32_t>((z * count_[1] + y) * count_[0] + x);
+    });
+    for (const std::uint32_t cell : cell_of_rod) ++begin_[cell + 1];
     for (std::size_t cell = 0; cell < total; ++cell) begin_[cell + 1] += begin_[cell];
     std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
     for (std::size_t i = 0; i < rods.size(); ++i) rods_[next[cell_of_rod[i]]++] = static_cast<std::uint32_t>(i);
@@ -64,14 +62,9 @@ std::array<int, 3> CellList::cell_of(const Vec3& centre) const {
     return cell;
 }
 
-std::size_t CellList::wrapped_cell(const std::array<int, 3>& cell, Image& image) const {
-    std::array<std::size_t, 3> wrapped{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        image[k] = periodic_[k] ? floor_divide(cell[k], count_[k]) : 0;
-        wrapped[k] = static_cast<std::size_t>(cell[k] - image[k] * count_[k]);
-    }
-    return (wrapped[2] * static_cast<std::size_t>(count_[1]) + wrapped[1]) * static_cast<std::size_t>(count_[0]) +
-           wrapped[0];
+std::array<int, 3> CellList::place_of(std::size_t cell) const {
+    const auto nx = static_cast<std::size_t>(count_[0]), ny = static_cast<std::size_t>(count_[1]);
+    return {static_cast<int>(cell % nx), static_cast<int>(cell / nx % ny), static_cast<int>(cell / (nx * ny))};
 }
 
 }  // namespace jostle

@@ -4,48 +4,68 @@
 
 namespace jostle {
 
-ContactMatrix::ContactMatrix(const Contacts& contacts, const Rods& rods)
-    : contacts_(contacts),
-      rods_(rods),
-      begin_(rods.size() + 1, 0),
-      sides_(2 * contacts.size()),
-      tip_velocity_(rods.size()) {
-    for (const Contact& contact : contacts.contact) {
-        ++begin_[contact.i + 1];
-        ++begin_[contact.j + 1];
+ContactMatrix::ContactMatrix(const Contacts& contacts, std::size_t rod_count, Include include)
+    : contacts_(contacts), place_of_(rod_count, no_place) {
+    if (include == Include::all_rods) {
+        rows_.resize(rod_count);
+        for (std::uint32_t row = 0; row < rod_count; ++row) rows_[row] = place_of_[row] = row;
     }
-    for (std::size_t k = 0; k < rods.size(); ++k) begin_[k + 1] += begin_[k];
+    extend();
+}
+
+void ContactMatrix::extend() {
+    const auto place_of = [this](std::uint32_t row) {
+        if (place_of_[row] == no_place) {
+            place_of_[row] = static_cast<std::uint32_t>(rows_.size());
+            rows_.push_back(row);
+        }
+        return place_of_[row];
+    };
+    ends_.reserve(contacts_.size());
+    for (std::size_t l = ends_.size(); l < contacts_.size(); ++l) {
+        const std::uint32_t i = place_of(contacts_.contact[l].i);
+        ends_.push_back({i, place_of(contacts_.contact[l].j)});
+    }
+    begin_.clear();
+}
+
+void ContactMatrix::list_sides() const {
+    begin_.assign(rows_.size() + 1, 0);
+    sides_.resize(2 * size());
+    for (const Ends& ends : ends_) {
+        ++begin_[ends.i + 1];
+        ++begin_[ends.j + 1];
+    }
+    for (std::size_t k = 0; k < rows_.size(); ++k) begin_[k + 1] += begin_[k];
     std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-    for (std::size_t l = 0; l < contacts.size(); ++l) {
+    for (std::size_t l = 0; l < size(); ++l) {
         const auto side = static_cast<std::uint32_t>(2 * l);
-        sides_[next[contacts.contact[l].i]++] = side;
-        sides_[next[contacts.contact[l].j]++] = side + 1;
+        sides_[next[ends_[l].i]++] = side;
+        sides_[next[ends_[l].j]++] = side + 1;
     }
 }
 
-void ContactMatrix::apply(std::span<const double> gamma, Forces& forces) const {
-    parallel_for(rods_.size(), [&](std::size_t k) {
-        Vec3 force, lever;  // lever: sum of arm * force, so that torque = axis x lever
+void ContactMatrix::apply(std::span<const double> gamma, std::span<ContactForce> forces) const {
+    if (begin_.empty()) list_sides();
+    parallel_for(rows_.size(), [&](std::size_t k) {
+        ContactForce sum;
         for (std::uint32_t entry = begin_[k]; entry < begin_[k + 1]; ++entry) {
             const std::uint32_t side = sides_[entry];
             const Contact& contact = contacts_.contact[side / 2];
             const bool is_j = (side % 2) == 1;
             const Vec3 push = (is_j ? gamma[side / 2] : -gamma[side / 2]) * contact.normal;
-            force += push;
-            lever += (is_j ? contact.arm_j : contact.arm_i) * push;
+            sum.force += push;
+            sum.lever += (is_j ? contact.arm_j : contact.arm_i) * push;
         }
-        forces.force[k] = force;
-        forces.torque[k] = cross(rods_.axis[k], lever);
+        forces[k] = sum;
     });
 }
 
-void ContactMatrix::apply_transpose(const Velocities& velocities, std::span<double> rates) const {
-    parallel_for(rods_.size(), [&](std::size_t k) { tip_velocity_[k] = cross(velocities.angular[k], rods_.axis[k]); });
-    parallel_for(contacts_.size(), [&](std::size_t l) {
+void ContactMatrix::apply_transpose(std::span<const ContactVelocity> velocities, std::span<double> rates) const {
+    parallel_for(size(), [&](std::size_t l) {
         const Contact& contact = contacts_.contact[l];
-        const Vec3 of_i = velocities.linear[contact.i] + contact.arm_i * tip_velocity_[contact.i];
-        const Vec3 of_j = velocities.linear[contact.j] + contact.arm_j * tip_velocity_[contact.j];
-        rates[l] = dot(contact.normal, of_j - of_i);
+        const ContactVelocity &i = velocities[ends_[l].i], &j = velocities[ends_[l].j];
+        rates[l] = dot(contact.normal, j.centre + contact.arm_j * j.turning - i.centre - contact.arm_i * i.turning);
     });
 }
 

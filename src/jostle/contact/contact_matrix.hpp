@@ -5,40 +5,68 @@
 #include <vector>
 
 #include "jostle/contact/contacts.hpp"
-#include "jostle/rods/forces.hpp"
-#include "jostle/rods/velocities.hpp"
 
 namespace jostle {
 
-/// The matrix D of theory, eq. (2.2): forces F_C = D gamma on the rods, gap velocities D^T U. Never formed.
+/// Force F on a rod, and the sum of arm * force over its contacts: its torque is axis x lever.
+struct ContactForce {
+    Vec3 force, lever;
+};
+
+/// Velocity U of a rod's centre, and W = Omega x axis: a point at `arm` along the axis has the velocity U + arm W.
+struct ContactVelocity {
+    Vec3 centre, turning;
+};
+
+/// The matrix D of theory, eq. (2.2), between contact forces gamma and the rods that have contacts. Never formed.
 ///
 /// Column l is (-normal, -a_i x normal; +normal, +a_j x normal) with arms a = arm * axis. As an arm is along its rod's
-/// axis,
-///     D^T U = normal.(U_j + arm_j W_j - U_i - arm_i W_i),  W = Omega x axis,
-///     torque = axis x (sum of +- arm gamma normal),
-/// so no cross product is needed per contact. Holds references: contacts and rods must outlive it and stay unchanged.
+/// axis, no cross product is needed per contact:
+///     D gamma:  force = sum of +- gamma normal,  lever = sum of +- arm gamma normal,
+///     D^T U:    normal.(U_j + arm_j W_j - U_i - arm_i W_i).
+/// Rods without contacts have no part unless asked for: the others are numbered apart ("places", in the order of their
+/// first contacts). Holds a reference: the contacts must outlive it, and may only grow, as `extend` is then told.
 class ContactMatrix {
 public:
-    ContactMatrix(const Contacts& contacts, const Rods& rods);
+    enum class Include { rods_with_contacts, all_rods };
 
-    /// forces = D gamma; `gamma`: one force per contact, positive where the rods repel each other.
-    void apply(std::span<const double> gamma, Forces& forces) const;
+    /// `rod_count`: of the rows that contacts refer to.
+    ContactMatrix(const Contacts& contacts, std::size_t rod_count, Include include = Include::rods_with_contacts);
+
+    /// Takes in the contacts that have been appended since.
+    void extend();
+
+    /// Where a contact's rods stand among those with contacts.
+    struct Ends {
+        std::uint32_t i, j;
+    };
+
+    std::size_t size() const { return ends_.size(); }
+    const Contacts& contacts() const { return contacts_; }
+    std::span<const std::uint32_t> rods() const { return rows_; }  ///< (places) row of each
+    std::span<const Ends> ends() const { return ends_; }           ///< (contacts) places
+
+    /// The place of a row, or `no_place`.
+    std::uint32_t place_of(std::uint32_t row) const { return place_of_[row]; }
+    static constexpr std::uint32_t no_place = 0xFFFFFFFF;
+
+    /// forces = D gamma, one a place; `gamma`: one force a contact, positive where the rods repel each other.
+    void apply(std::span<const double> gamma, std::span<ContactForce> forces) const;
 
     /// rates = D^T velocities: the velocity at which each gap opens.
-    void apply_transpose(const Velocities& velocities, std::span<double> rates) const;
-
-    std::size_t contact_count() const { return contacts_.size(); }
-    const Contacts& contacts() const { return contacts_; }
-    const Rods& rods() const { return rods_; }
+    void apply_transpose(std::span<const ContactVelocity> velocities, std::span<double> rates) const;
 
 private:
+    void list_sides() const;
+
     const Contacts& contacts_;
-    const Rods& rods_;
-    /// Contacts of each rod in ascending order: 2 l where the rod is i of contact l, 2 l + 1 where it is j. Each rod
-    /// gathers its own forces, in this order, so that the sum does not depend on threads.
-    std::vector<std::uint32_t> begin_;        ///< (N + 1)
-    std::vector<std::uint32_t> sides_;        ///< (2 contacts)
-    mutable std::vector<Vec3> tip_velocity_;  ///< (N) W, scratch of apply_transpose
+    std::vector<std::uint32_t> place_of_;  ///< (rods)
+    std::vector<std::uint32_t> rows_;
+    std::vector<Ends> ends_;
+    /// Contacts of each place in ascending order: 2 l where the rod is i of contact l, 2 l + 1 where it is j. Each rod
+    /// gathers its own forces, in this order, so that the sum does not depend on threads. Made when first needed.
+    mutable std::vector<std::uint32_t> begin_;  ///< (places + 1)
+    mutable std::vector<std::uint32_t> sides_;  ///< (2 contacts)
 };
 
 }  // namespace jostle

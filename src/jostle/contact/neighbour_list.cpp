@@ -5,14 +5,75 @@
 #include <tuple>
 
 #include "jostle/contact/cell_list.hpp"
-#include "jostle/contact/segment_distance.hpp"
-#include "jostle/parallel/parallel_for.hpp"
+#include "jostle/math/vectorised.hpp"
 
 namespace jostle {
 
 namespace {
 
-constexpr std::size_t rods_per_block = 64;
+constexpr std::size_t cells_per_block = 16;
+
+/// Gaps are computed in float, from places relative to a rod near by. Their error, in units of the range of the search,
+/// is far below this; nearly parallel rods have the largest, some 3e-5.
+constexpr double float_error = 2e-4;
+
+struct NewPair {
+    std::uint32_t i, j;
+    float gap;
+    std::array<std::int16_t, 3> image;
+};
+
+/// Rods around a cell, images apart, in arrays for vector instructions.
+struct Surroundings {
+    std::vector<float> x, y, z, axis_x, axis_y, axis_z, half_length, radius, gap;
+    std::vector<std::uint32_t> row;
+    std::vector<Image> image;
+
+    void clear() {
+        for (auto* values : {&x, &y, &z, &axis_x, &axis_y, &axis_z, &half_length, &radius}) values->clear();
+        row.clear();
+        image.clear();
+    }
+    void push_back(const Rods& rods, std::uint32_t j, const Vec3& relative_centre, const Image& new_image) {
+        const auto single = [](double value) { return static_cast<float>(value); };
+        x.push_back(single(relative_centre.x));
+        y.push_back(single(relative_centre.y));
+        z.push_back(single(relative_centre.z));
+        axis_x.push_back(single(rods.axis[j].x));
+        axis_y.push_back(single(rods.axis[j].y));
+        axis_z.push_back(single(rods.axis[j].z));
+        half_length.push_back(single(0.5 * rods.length[j]));
+        radius.push_back(single(0.5 * rods.diameter[j]));
+        row.push_back(j);
+        image.push_back(new_image);
+    }
+    std::size_t size() const { return row.size(); }
+};
+
+inline float clamped(float value, float limit) {
+    const float above = value > -limit ? value : -limit;
+    return above < limit ? above : limit;
+}
+
+/// One rod against many: the gaps of segments as in segment_distance.hpp, in float.
+JOSTLE_VECTORISED void find_gaps(std::size_t count, const float* x, const float* y, const float* z, const float* axis_x,
+                                 const float* axis_y, const float* axis_z, const float* half_length,
+                                 const float* radius, const std::array<float, 8>& one, float* gap) {
+    const auto [x_i, y_i, z_i, ux, uy, uz, half_i, radius_i] = one;
+    for (std::size_t k = 0; k < count; ++k) {
+        const float dx = x[k] - x_i, dy = y[k] - y_i, dz = z[k] - z_i;
+        const float vx = axis_x[k], vy = axis_y[k], vz = axis_z[k];
+        const float d_i = dx * ux + dy * uy + dz * uz, d_j = dx * vx + dy * vy + dz * vz;
+        const float cosine = ux * vx + uy * vy + uz * vz;
+        const float wx = ux - cosine * vx, wy = uy - cosine * vy, wz = uz - cosine * vz;
+        const float along = (dx - d_j * vx) * wx + (dy - d_j * vy) * wy + (dz - d_j * vz) * wz;
+        const float s_start = clamped(along / (wx * wx + wy * wy + wz * wz + 1e-20F), half_i);
+        const float s_j = clamped(s_start * cosine - d_j, half_length[k]);
+        const float s_i = clamped(s_j * cosine + d_i, half_i);
+        const float ex = dx + s_j * vx - s_i * ux, ey = dy + s_j * vy - s_i * uy, ez = dz + s_j * vz - s_i * uz;
+        gap[k] = std::sqrt(ex * ex + ey * ey + ez * ez) - radius[k] - radius_i;
+    }
+}
 
 /// A rod and its own image: each such pair is met twice, in opposite images; the lexicographically positive one stands
 /// for both.
@@ -25,64 +86,161 @@ std::array<std::int16_t, 3> narrowed(const Image& image) {
             static_cast<std::int16_t>(image[2])};
 }
 
-float rounded_down(double value) {
-    return std::nextafter(static_cast<float>(value), -INFINITY);
-}
+class Builder {
+public:
+    Builder(const Rods& rods, const Box& box, const CellList& cells, double range, double skin)
+        : rods_(rods),
+          box_(box),
+          cells_(cells),
+          squared_range_(range * range),
+          error_(static_cast<float>(float_error * range)),
+          skin_(static_cast<float>(skin) + error_) {}
 
-/// Appends the pairs (i, j >= i, image) with a gap below `skin`, in order.
-void append_pairs_of(std::size_t i, const Rods& rods, const Box& box, const CellList& cells, double skin,
-                     std::vector<NeighbourPair>& pairs) {
-    const std::size_t first = pairs.size();
-    const double half_i = 0.5 * rods.length[i];
-    cells.visit(rods.centre[i], [&](std::uint32_t j, const Image& image) {
-        if (j < i || (j == i && !is_positive(image))) return;
-        const Vec3 between = rods.centre[j] + box.displacement(image) - rods.centre[i];
-        const double half_j = 0.5 * rods.length[j];
-        const double range = 0.5 * (rods.diameter[i] + rods.diameter[j]) + skin;
-        const double outer = half_i + half_j + range;
-        if (squared_norm(between) >= outer * outer) return;
-        const auto points = nearest_points(between, rods.axis[i], half_i, rods.axis[j], half_j);
-        if (squared_norm(points.separation) >= range * range) return;
-        const double gap = norm(points.separation) - range + skin;
-        pairs.push_back({static_cast<std::uint32_t>(i), j, rounded_down(gap), narrowed(image)});
-    });
-    std::sort(
-        pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end(),
-        [](const NeighbourPair& a, const NeighbourPair& b) { return std::tie(a.j, a.image) < std::tie(b.j, b.image); });
+    /// Appends the pairs (i, j >= i, image) with a gap below the skin, of all i in a cell; in order for each i.
+    void append_pairs_of(std::size_t home, Surroundings& around, std::vector<NewPair>& pairs) const {
+        const auto homes = cells_.rods_in(home);
+        if (homes.empty()) return;
+        const Vec3 origin = rods_.centre[homes.front()];
+        gather(home, homes, origin, around);
+        around.gap.resize(around.size());
+        for (const std::uint32_t i : homes) {
+            const std::size_t first = pairs.size();
+            const auto single = [](double value) { return static_cast<float>(value); };
+            const Vec3 centre = rods_.centre[i] - origin, &axis = rods_.axis[i];
+            find_gaps(around.size(), around.x.data(), around.y.data(), around.z.data(), around.axis_x.data(),
+                      around.axis_y.data(), around.axis_z.data(), around.half_length.data(), around.radius.data(),
+                      {single(centre.x), single(centre.y), single(centre.z), single(axis.x), single(axis.y),
+                       single(axis.z), single(0.5 * rods_.length[i]), single(0.5 * rods_.diameter[i])},
+                      around.gap.data());
+            for (std::size_t k = 0; k < around.size(); ++k) {
+                const std::uint32_t j = around.row[k];
+                if (around.gap[k] >= skin_ || j < i || (j == i && !is_positive(around.image[k]))) continue;
+                pairs.push_back({i, j, around.gap[k] - error_, narrowed(around.image[k])});
+            }
+            std::sort(
+                pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end(),
+                [](const NewPair& a, const NewPair& b) { return std::tie(a.j, a.image) < std::tie(b.j, b.image); });
+        }
+    }
+
+private:
+    /// The rods within range of the box that encloses the centres of `homes`.
+    void gather(std::size_t home, std::span<const std::uint32_t> homes, const Vec3& origin,
+                Surroundings& around) const {
+        Vec3 low, high;
+        for (const std::uint32_t i : homes)
+            for (int k = 0; k < 3; ++k) {
+                low[k] = std::min(low[k], rods_.centre[i][k] - origin[k]);
+                high[k] = std::max(high[k], rods_.centre[i][k] - origin[k]);
+            }
+        around.clear();
+        cells_.visit(home, [&](std::span<const std::uint32_t> others, const Image& image) {
+            const Vec3 displacement = box_.displacement(image) - origin;
+            for (const std::uint32_t j : others) {
+                if (j < homes.front()) continue;  // all such pairs are those of the other cell
+                const Vec3 centre = rods_.centre[j] + displacement;
+                double squared = 0.0;
+                for (int k = 0; k < 3; ++k) {
+                    const double outside = std::max({low[k] - centre[k], centre[k] - high[k], 0.0});
+                    squared += outside * outside;
+                }
+                if (squared < squared_range_) around.push_back(rods_, j, centre, image);
+            }
+        });
+    }
+
+    const Rods& rods_;
+    const Box& box_;
+    const CellList& cells_;
+    double squared_range_;
+    float error_, skin_;
+};
+
+JOSTLE_VECTORISED void extents_less_gaps(std::size_t count, const std::uint32_t* i, const std::uint32_t* j,
+                                         const float* gap, const float* extent, float* closeness) {
+    for (std::size_t k = 0; k < count; ++k) closeness[k] = extent[i[k]] + extent[j[k]] - gap[k];
 }
 
 }  // namespace
 
-bool NeighbourList::update(const Rods& rods, const Box& box, std::span<const double> reach) {
+void NeighbourList::widen(const Rods& rods, const Box& box, std::span<const double> reach) {
+    if (!widened_) extent_before_ = extent_;
+    widened_ = true;
+    if (refresh(rods, box, reach)) extent_before_.clear();
+}
+
+bool NeighbourList::refresh(const Rods& rods, const Box& box, std::span<const double> reach) {
+    extent_.resize(rods.size());
     if (reference_.centre.size() == rods.size() && find_extents(rods, box, reach) <= 0.5 * skin_) return false;
     const double largest_reach = parallel_max(rods.size(), 0.0, [&](std::size_t i) { return reach[i]; });
     build(rods, box, 2.0 * (largest_reach + travel_));
-    extent_.assign(reach.begin(), reach.end());
+    parallel_for(rods.size(), [&](std::size_t i) { set_extent(i, reach[i]); });
     return true;
 }
 
 /// Fills in d_i + reach_i, and returns the largest.
 double NeighbourList::find_extents(const Rods& rods, const Box& box, std::span<const double> reach) {
     return parallel_max(rods.size(), 0.0, [&](std::size_t i) {
-        Image crossed;
-        for (std::size_t k = 0; k < 3; ++k) crossed[k] = rods.image[i][k] - reference_.image[i][k];
-        const Vec3 moved = rods.centre[i] + box.displacement(crossed) - reference_.centre[i];
-        return extent_[i] = norm(moved) + 0.5 * rods.length[i] * norm(rods.axis[i] - reference_.axis[i]) + reach[i];
+        Vec3 moved = rods.centre[i] - reference_.centre[i];
+        if (rods.image[i] != reference_.image[i]) {
+            Image crossed;
+            for (std::size_t k = 0; k < 3; ++k) crossed[k] = rods.image[i][k] - reference_.image[i][k];
+            moved += box.displacement(crossed);
+        }
+        const double extent =
+            farthest_displacement(moved, rods.axis[i] - reference_.axis[i], 0.5 * rods.length[i]) + reach[i];
+        set_extent(i, extent);
+        return extent;
     });
+}
+
+void NeighbourList::set_extent(std::size_t i, double extent) {
+    extent_[i] = static_cast<float>(extent * (1.0 + 1e-6));
+}
+
+void NeighbourList::find_closeness(std::size_t begin, std::size_t end, float* closeness) const {
+    extents_less_gaps(end - begin, i_.data() + begin, j_.data() + begin, gap_.data() + begin, extent_.data(),
+                      closeness);
 }
 
 void NeighbourList::build(const Rods& rods, const Box& box, double skin) {
     skin_ = skin;
-    reference_ = {rods.centre, rods.axis, rods.image};
-    double longest = 0.0;
-    for (std::size_t i = 0; i < rods.size(); ++i) longest = std::max(longest, rods.length[i] + rods.diameter[i]);
-    const CellList cells(rods, box, longest + skin);
-    std::vector<std::vector<NeighbourPair>> blocks((rods.size() + rods_per_block - 1) / rods_per_block);
-    parallel_for_blocks(rods.size(), rods_per_block, [&](std::size_t block, std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) append_pairs_of(i, rods, box, cells, skin, blocks[block]);
+    reference_.centre.resize(rods.size());
+    reference_.axis.resize(rods.size());
+    reference_.image.resize(rods.size());
+    parallel_for(rods.size(), [&](std::size_t i) {
+        reference_.centre[i] = rods.centre[i];
+        reference_.axis[i] = rods.axis[i];
+        reference_.image[i] = rods.image[i];
     });
-    pairs_.clear();
-    for (const auto& block : blocks) pairs_.insert(pairs_.end(), block.begin(), block.end());
+    const double longest =
+        parallel_max(rods.size(), 0.0, [&](std::size_t i) { return rods.length[i] + rods.diameter[i]; });
+    const double range = longest + skin;
+    const CellList cells(rods, box, range);
+    const Builder builder(rods, box, cells, range, skin);
+    std::vector<std::vector<NewPair>> blocks((cells.size() + cells_per_block - 1) / cells_per_block);
+    std::vector<std::size_t> begin(rods.size() + 1, 0);
+    parallel_for_blocks(cells.size(), cells_per_block, [&](std::size_t block, std::size_t first, std::size_t last) {
+        thread_local Surroundings around;
+        for (std::size_t cell = first; cell < last; ++cell) builder.append_pairs_of(cell, around, blocks[block]);
+        for (const NewPair& pair : blocks[block]) ++begin[pair.i + 1];  // a rod is in one cell only
+    });
+    for (std::size_t i = 0; i < rods.size(); ++i) begin[i + 1] += begin[i];
+    const std::size_t count = begin[rods.size()];
+    i_.resize(count);
+    j_.resize(count);
+    gap_.resize(count);
+    image_.resize(count);
+    parallel_for_parts(blocks.size(), [&](std::size_t block) {
+        for (const NewPair& pair : blocks[block]) {
+            const std::size_t place = begin[pair.i]++;
+            i_[place] = pair.i;
+            j_[place] = pair.j;
+            gap_[place] = pair.gap;
+            for (std::size_t k = 0; k < 3; ++k)
+                image_[place][k] = pair.image[k] + rods.image[pair.i][k] - rods.image[pair.j][k];
+        }
+    });
 }
 
 }  // namespace jostle

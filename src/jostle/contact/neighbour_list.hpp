@@ -1,69 +1,94 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "jostle/parallel/parallel_for.hpp"
 #include "jostle/rods/box.hpp"
+#include "jostle/rods/rods.hpp"
 
 namespace jostle {
-
-/// Two rods that may touch before the list is built again; `image` was right when it was built.
-struct NeighbourPair {
-    std::uint32_t i = 0;
-    std::uint32_t j = 0;
-    float gap = 0.0F;  ///< when it was built, rounded down
-    std::array<std::int16_t, 3> image{};
-};
 
 /// Verlet list with a skin over a cell list, for any box: periodic, open, or thinner than a rod is long.
 ///
 /// After `update(rods, box, reach)` the list holds every pair (i, j, image) whose gap is below reach_i + reach_j, where
 /// a rod and its own image are a pair too. It is built anew only when some rod has moved so far since the last time
-/// that this could fail: a point of rod i moves by at most d_i = |change of centre| + L_i/2 |change of axis|, so pairs
-/// with gap < skin at building time suffice as long as d_i + reach_i <= skin/2 for all i.
+/// that this could fail: if no point of rod i has moved by more than d_i, pairs with gap < skin at building time
+/// suffice as long as d_i + reach_i <= skin/2 for all i.
 class NeighbourList {
 public:
     /// `travel`: how far a rod may go, beside its reach, before the list is built again (a length).
     explicit NeighbourList(double travel) : travel_(travel) {}
 
     /// Builds anew if need be; returns whether it did. `reach`: (N), lengths.
-    bool update(const Rods& rods, const Box& box, std::span<const double> reach);
+    bool update(const Rods& rods, const Box& box, std::span<const double> reach) {
+        widened_ = false;
+        return refresh(rods, box, reach);
+    }
+
+    /// The same, but remembers which pairs were close at the last call of `update`.
+    void widen(const Rods& rods, const Box& box, std::span<const double> reach);
 
     /// Forces building at the next update (rods were added, removed or renumbered).
     void invalidate() { reference_.centre.clear(); }
 
-    /// Pairs in the order of (i, j, image), i <= j.
-    std::span<const NeighbourPair> pairs() const { return pairs_; }
-
-    /// Whether the gap of a pair is surely above the reaches given to the last update: most pairs of the skin need no
-    /// closer look.
-    bool surely_beyond_reach(const NeighbourPair& pair) const {
-        return static_cast<double>(pair.gap) > extent_[pair.i] + extent_[pair.j];
-    }
+    /// Number of pairs, in the order of (i, j, image); i <= j.
+    std::size_t size() const { return i_.size(); }
+    std::uint32_t i(std::size_t pair) const { return i_[pair]; }
+    std::uint32_t j(std::size_t pair) const { return j_[pair]; }
 
     /// The image shift of a pair now: rods that have crossed a periodic face since building are accounted for.
-    Image image_now(const NeighbourPair& pair, const Rods& rods) const {
+    /// `image_i`, `image_j`: those of the two rods now.
+    Image image_now(std::size_t pair, const Image& image_i, const Image& image_j) const {
         Image image;
-        for (std::size_t k = 0; k < 3; ++k)
-            image[k] = pair.image[k] + (rods.image[pair.j][k] - reference_.image[pair.j][k]) -
-                       (rods.image[pair.i][k] - reference_.image[pair.i][k]);
+        const PairImage& now_less_rods = image_[pair];
+        for (std::size_t k = 0; k < 3; ++k) image[k] = now_less_rods[k] + image_j[k] - image_i[k];
         return image;
     }
 
+    static constexpr std::size_t block_size = 512;
+    std::size_t block_count() const { return (size() + block_size - 1) / block_size; }
+
+    /// Calls found(pair) for the pairs of a block, in order, whose gap may be below the reaches given to the last
+    /// update. Most pairs of the skin are passed over by what they were when the list was built.
+    template <class Found>
+    void for_close_pairs(std::size_t block, Found&& found) const {
+        const std::size_t begin = block * block_size, end = std::min(begin + block_size, size());
+        std::array<float, block_size> closeness;
+        find_closeness(begin, end, closeness.data());
+        for (std::size_t pair = begin; pair < end; ++pair)
+            if (closeness[pair - begin] >= 0.0F) found(pair);
+    }
+
+    /// Whether for_close_pairs named the pair before the list was widened; no for all if it had to be built anew.
+    bool was_close(std::size_t pair) const {
+        return !extent_before_.empty() && extent_before_[i_[pair]] + extent_before_[j_[pair]] - gap_[pair] >= 0.0F;
+    }
+
 private:
+    using PairImage = std::array<std::int32_t, 3>;
+
+    bool refresh(const Rods& rods, const Box& box, std::span<const double> reach);
     double find_extents(const Rods& rods, const Box& box, std::span<const double> reach);
+    void set_extent(std::size_t i, double extent);
     void build(const Rods& rods, const Box& box, double skin);
+    void find_closeness(std::size_t begin, std::size_t end, float* closeness) const;
 
     double travel_;
     double skin_ = 0.0;
     struct Reference {
         std::vector<Vec3> centre, axis;
         std::vector<Image> image;
-    } reference_;
-    std::vector<NeighbourPair> pairs_;
-    std::vector<double> extent_;  ///< (N) d_i + reach_i at the last update
+    } reference_;  ///< (N) the rods when the list was built
+    std::vector<std::uint32_t> i_, j_;
+    std::vector<float> gap_;            ///< when the list was built, rounded down
+    std::vector<PairImage> image_;      ///< when the list was built, plus image of i, less image of j
+    std::vector<float> extent_;         ///< (N) d_i + reach_i at the last update, rounded up
+    std::vector<float> extent_before_;  ///< (N) before the list was widened; empty if it has been built since
+    bool widened_ = false;
 };
 
 }  // namespace jostle

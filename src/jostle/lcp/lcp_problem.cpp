@@ -7,17 +7,26 @@
 
 namespace jostle {
 
+namespace {
+
+/// The smaller of two numbers; NaN if either is, which std::min would hide.
+double minimum(double a, double b) {
+    return std::isnan(a) || std::isnan(b) ? NAN : std::min(a, b);
+}
+
+}  // namespace
+
 double lcp_residual(const LcpProblem& problem, LcpResidual kind, std::span<const double> gamma,
                     std::span<const double> velocity) {
     if (kind == LcpResidual::paper) {
         return std::sqrt(parallel_sum<double>(gamma.size(), [&](std::size_t l) {
-            const double h = std::min(gamma[l], velocity[l]);
+            const double h = minimum(gamma[l], velocity[l]);
             return h * h;
         }));
     }
     const auto diagonal = problem.matrix.diagonal();
     return problem.time_step * parallel_max(gamma.size(), 0.0, [&](std::size_t l) {
-               const double h = std::fabs(std::min(diagonal[l] * gamma[l], velocity[l]));
+               const double h = std::fabs(minimum(diagonal[l] * gamma[l], velocity[l]));
                return std::isnan(h) ? INFINITY : h;
            });
 }

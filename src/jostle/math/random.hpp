@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 namespace jostle {
 
@@ -22,8 +23,14 @@ struct RandomKey {
 /// Four independent uniform numbers in the open interval (0, 1), spaced by 2^-32.
 std::array<double, 4> uniform4(const RandomKey& key, std::uint32_t draw);
 
-/// Six independent standard normal numbers (Box-Muller; the largest possible magnitude is 6.7): one rod's noise in a
-/// step.
-std::array<double, 6> normal6(const RandomKey& key);
+/// Six independent standard normal numbers: one rod's noise in a step.
+using Normals = std::array<double, 6>;
+
+/// The normal numbers of (seed, step, stream) and each of `ids`, which stand in for the key's own: draw 0, and half of
+/// draw 1.
+///
+/// Box-Muller, right to 3e-15; the largest possible magnitude is 6.7. `normals` has one place an id. The numbers of an
+/// id do not depend on the others.
+void fill_normals(const RandomKey& key, std::span<const std::uint64_t> ids, std::span<Normals> normals);
 
 }  // namespace jostle

@@ -22,33 +22,41 @@ void apply_to_rod(const RodMobility& mobility, const Vec3& axis, const Vec3& for
 DragMobility::DragMobility(DragLaw law) : law_(std::move(law)) {}
 
 void DragMobility::update(const Rods& rods) {
-    // Equal neighbours are common (all rods alike, synchronous growth): they share one evaluation. No threads: laws may
+    // Equal neighbours are common (all rods alike, synchronous growth): they share one kind. No threads: laws may
     // throw.
-    std::vector<RodMobility> updated(rods.size());
+    std::vector<std::uint32_t> kind(rods.size());
+    std::vector<Kind> kinds;
     for (std::size_t i = 0; i < rods.size(); ++i) {
         const bool same = i > 0 && rods.length[i] == rods.length[i - 1] && rods.diameter[i] == rods.diameter[i - 1];
-        updated[i] = same ? updated[i - 1] : law_(rods.length[i], rods.diameter[i]);
+        if (!same) {
+            const RodMobility own = law_(rods.length[i], rods.diameter[i]);
+            kinds.push_back({own, {std::sqrt(own.parallel), std::sqrt(own.perpendicular), std::sqrt(own.rotational)}});
+        }
+        kind[i] = static_cast<std::uint32_t>(kinds.size() - 1);
     }
-    rod_mobility_.swap(updated);
+    kind_.swap(kind);
+    kinds_.swap(kinds);
 }
 
 void DragMobility::apply(const Rods& rods, const Forces& forces, Velocities& velocities) const {
-    assert(rod_mobility_.size() == rods.size() && forces.size() == rods.size());
+    assert(kind_.size() == rods.size() && forces.size() == rods.size());
     velocities.resize(rods.size());
     parallel_for(rods.size(), [&](std::size_t i) {
-        apply_to_rod(rod_mobility_[i], rods.axis[i], forces.force[i], forces.torque[i], velocities.linear[i],
+        apply_to_rod(kinds_[kind_[i]].own, rods.axis[i], forces.force[i], forces.torque[i], velocities.linear[i],
                      velocities.angular[i]);
     });
 }
 
-void DragMobility::apply_square_root(const Rods& rods, const Forces& normals, Velocities& velocities) const {
-    assert(rod_mobility_.size() == rods.size() && normals.size() == rods.size());
-    velocities.resize(rods.size());
+void DragMobility::add_square_root(const Rods& rods, std::span<const Normals> normals, double scale,
+                                   Velocities& velocities) const {
+    assert(kind_.size() == rods.size() && normals.size() == rods.size() && velocities.size() == rods.size());
     parallel_for(rods.size(), [&](std::size_t i) {
-        const RodMobility& own = rod_mobility_[i];
-        const RodMobility root = {std::sqrt(own.parallel), std::sqrt(own.perpendicular), std::sqrt(own.rotational)};
-        apply_to_rod(root, rods.axis[i], normals.force[i], normals.torque[i], velocities.linear[i],
-                     velocities.angular[i]);
+        const Normals& xi = normals[i];
+        Vec3 linear, angular;
+        apply_to_rod(kinds_[kind_[i]].root, rods.axis[i], {xi[0], xi[1], xi[2]}, {xi[3], xi[4], xi[5]}, linear,
+                     angular);
+        velocities.linear[i] += scale * linear;
+        velocities.angular[i] += scale * angular;
     });
 }
 

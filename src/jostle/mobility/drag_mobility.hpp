@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -21,13 +22,20 @@ public:
 
     void update(const Rods& rods) override;
     void apply(const Rods& rods, const Forces& forces, Velocities& velocities) const override;
-    void apply_square_root(const Rods& rods, const Forces& normals, Velocities& velocities) const override;
+    void add_square_root(const Rods& rods, std::span<const Normals> normals, double scale,
+                         Velocities& velocities) const override;
     bool couples_rods() const override { return false; }
-    RodMobility of_rod(std::size_t i) const override { return rod_mobility_[i]; }
+    RodMobility of_rod(std::size_t i) const override { return kinds_[kind_[i]].own; }
 
 private:
+    /// Rods of one length and diameter.
+    struct Kind {
+        RodMobility own, root;  ///< the coefficients and their square roots
+    };
+
     DragLaw law_;
-    std::vector<RodMobility> rod_mobility_;  // (N)
+    std::vector<std::uint32_t> kind_;  ///< (N)
+    std::vector<Kind> kinds_;
 };
 
 }  // namespace jostle

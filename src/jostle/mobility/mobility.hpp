@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+
+#include "jostle/math/random.hpp"
 #include "jostle/rods/forces.hpp"
 #include "jostle/rods/rods.hpp"
 #include "jostle/rods/velocities.hpp"
@@ -29,9 +32,10 @@ public:
     /// velocities = M forces, for the present axes of `rods`.
     virtual void apply(const Rods& rods, const Forces& forces, Velocities& velocities) const = 0;
 
-    /// velocities = B xi with B B^T = M, where `normals` holds the standard normal numbers xi: Brownian velocities up
-    /// to the factor sqrt(2 kT / dt).
-    virtual void apply_square_root(const Rods& rods, const Forces& normals, Velocities& velocities) const = 0;
+    /// velocities += scale B xi with B B^T = M, where `normals` (N) holds the standard normal numbers xi, three for
+    /// forces and three for torques: Brownian velocities for scale = sqrt(2 kT/dt).
+    virtual void add_square_root(const Rods& rods, std::span<const Normals> normals, double scale,
+                                 Velocities& velocities) const = 0;
 
     /// Whether a force on one rod moves others. If not, `of_rod` says everything.
     virtual bool couples_rods() const = 0;

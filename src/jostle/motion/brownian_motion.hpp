@@ -8,22 +8,21 @@ namespace jostle {
 /// Brownian velocities U = sqrt(2 kT/dt) B xi with B B^T = M: over a step dt, displacements of covariance 2 kT dt M
 /// (theory, eq. 2.1; the thermal drift kT div M vanishes for a mobility that couples no two rods).
 ///
-/// xi are six standard normal numbers per rod, a function of (seed, step, id) alone: (force x, y, z, torque x) are draw
-/// 0 of Stream::brownian, (torque y, z) the first two of draw 1.
+/// xi are six standard normal numbers per rod, three for force and three for torque, a function of (seed, step, id)
+/// alone (fill_normals, Stream::brownian).
 class BrownianMotion final : public Motion {
 public:
     /// kT >= 0 (energy), else InputError (key "fluid.kT"). `mobility` must outlive this object and be up to date with
     /// the rods.
     BrownianMotion(double kT, const Mobility& mobility);
 
-    /// Not to be called by two threads at once: the scratch arrays are kept between calls.
+    /// Not to be called by two threads at once: the scratch array is kept between calls.
     void add_to(Velocities& known, const Rods& rods, const StepContext& context) const override;
 
 private:
     double kT_;
     const Mobility& mobility_;
-    mutable Forces normals_;         // (N) scratch
-    mutable Velocities velocities_;  // (N) scratch
+    mutable std::vector<Normals> normals_;  ///< (N) scratch
 };
 
 }  // namespace jostle

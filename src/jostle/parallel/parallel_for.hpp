@@ -32,6 +32,14 @@ void parallel_for(std::size_t count, Body&& body) {
     for (std::int64_t k = 0; k < end; ++k) body(static_cast<std::size_t>(k));
 }
 
+/// Calls body(part) for every part in [0, count), each of which is worth a thread of its own.
+template <class Body>
+void parallel_for_parts(std::size_t count, Body&& body) {
+    const auto end = static_cast<std::int64_t>(count);
+#pragma omp parallel for schedule(static) if (count > 1)
+    for (std::int64_t part = 0; part < end; ++part) body(static_cast<std::size_t>(part));
+}
+
 /// Calls body(block, begin, end) for consecutive blocks of `block_size` indices that cover [0, count).
 template <class Body>
 void parallel_for_blocks(std::size_t count, std::size_t block_size, Body&& body) {
@@ -66,6 +74,21 @@ double parallel_max(std::size_t count, double floor, Value&& value) {
 #pragma omp parallel for schedule(static) reduction(max : largest) if (count > parallel::serial_limit)
     for (std::int64_t k = 0; k < end; ++k)
         largest = std::max(largest, static_cast<double>(value(static_cast<std::size_t>(k))));
+    return largest;
+}
+
+/// The largest of 0 and all value(begin, end) over blocks that cover [0, count).
+template <class Value>
+double parallel_max_of_blocks(std::size_t count, Value&& value) {
+    if (count <= parallel::serial_limit) return std::max(0.0, static_cast<double>(value(std::size_t{0}, count)));
+    const std::size_t blocks = (count + parallel::sum_block - 1) / parallel::sum_block;
+    double largest = 0.0;
+    const auto end = static_cast<std::int64_t>(blocks);
+#pragma omp parallel for schedule(static) reduction(max : largest)
+    for (std::int64_t block = 0; block < end; ++block) {
+        const auto begin = static_cast<std::size_t>(block) * parallel::sum_block;
+        largest = std::max(largest, static_cast<double>(value(begin, std::min(begin + parallel::sum_block, count))));
+    }
     return largest;
 }
 

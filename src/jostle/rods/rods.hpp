@@ -11,7 +11,7 @@ namespace jostle {
 /// How many box edges along x, y, z lie between a rod (or a contact partner) and its wrapped copy.
 using Image = std::array<std::int32_t, 3>;
 
-/// The rods of an assembly: a structure of arrays, one row a rod, rows in id order.
+/// The rods of an assembly: a structure of arrays, one row a rod.
 ///
 /// A rod is a spherocylinder: the points within diameter/2 of the segment centre +- (length/2) axis.
 /// A sphere is a rod of length 0; it still has an axis (the direction it swims in).
@@ -35,6 +35,14 @@ struct Rods {
         image.push_back({0, 0, 0});
     }
 };
+
+/// How far any point of a rod moves at most: its centre moves by `centre`, its axis, a unit vector, changes by `axis`.
+///
+/// A point at s along the axis moves by centre + s axis, |s| <= half_length; the farthest is an end.
+inline double farthest_displacement(const Vec3& centre, const Vec3& axis, double half_length) {
+    return std::sqrt(squared_norm(centre) +
+                     half_length * (half_length * squared_norm(axis) + 2.0 * std::fabs(dot(centre, axis))));
+}
 
 /// Volume of a spherocylinder, pi (L D^2/4 + D^3/6).
 double rod_volume(double length, double diameter);

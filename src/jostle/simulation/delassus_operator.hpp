@@ -8,26 +8,53 @@ namespace jostle {
 
 /// A = D^T M D (theory, eq. 2.4): gap velocities caused by contact forces. The place where contact and mobility meet.
 ///
-/// Never formed: one application is a gather over rods, the mobility, and a pass over contacts. Holds references.
+/// Never formed: one application is a gather over the rods that have contacts, the mobility, and a pass over contacts.
+/// Holds references.
 class DelassusOperator final : public LinearOperator {
 public:
-    DelassusOperator(const ContactMatrix& contact_matrix, const Mobility& mobility);
+    DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods, const Mobility& mobility);
 
-    std::size_t size() const override { return contact_matrix_.contact_count(); }
+    /// Takes in what the contact matrix has been extended by.
+    void extend();
+
+    std::size_t size() const override { return contact_matrix_.size(); }
     void apply(std::span<const double> gamma, std::span<double> rates) const override;
 
     /// A_ll of each rod's own mobility (for a mobility that couples rods, the local part of it).
     std::span<const double> diagonal() const override { return diagonal_; }
 
-    /// The rods' velocities M D gamma.
-    void velocities(std::span<const double> gamma, Forces& forces, Velocities& velocities) const;
+    const ContactMatrix& contact_matrix() const { return contact_matrix_; }
+
+    /// A rod with contacts: its axis, and its own mobility.
+    struct Rod {
+        Vec3 axis;
+        RodMobility mobility;
+    };
+    std::span<const Rod> rods() const { return rods_; }  ///< (places)
+    bool couples_rods() const { return mobility_.couples_rods(); }
+
+    /// D gamma and M D gamma, one a place.
+    void velocities(std::span<const double> gamma, std::span<ContactForce> forces,
+                    std::span<ContactVelocity> velocities) const;
 
 private:
+    void apply_coupling_mobility(std::span<const ContactForce> forces, std::span<ContactVelocity> velocities) const;
+
     const ContactMatrix& contact_matrix_;
+    const Rods& all_rods_;
     const Mobility& mobility_;
+    std::vector<Rod> rods_;
     std::vector<double> diagonal_;
-    mutable Forces forces_;
-    mutable Velocities velocities_;
+    mutable std::vector<ContactForce> forces_;         ///< (places) scratch
+    mutable std::vector<ContactVelocity> velocities_;  ///< (places) scratch
 };
+
+/// The answer of one rod that feels its own drag only: U = [parallel n n + perpendicular (I - n n)] F, and W = Omega x
+/// n = rotational (I - n n) lever.
+inline ContactVelocity velocity_of(const DelassusOperator::Rod& rod, const Vec3& force, const Vec3& lever) {
+    const RodMobility& m = rod.mobility;
+    return {m.perpendicular * force + ((m.parallel - m.perpendicular) * dot(rod.axis, force)) * rod.axis,
+            m.rotational * (lever - dot(rod.axis, lever) * rod.axis)};
+}
 
 }  // namespace jostle

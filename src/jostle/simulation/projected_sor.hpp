@@ -1,7 +1,6 @@
 #pragma once
 
-#include "jostle/lcp/lcp_problem.hpp"
-#include "jostle/simulation/delassus_operator.hpp"
+#include "jostle/simulation/contact_solver.hpp"
 
 namespace jostle {
 
@@ -19,10 +18,10 @@ namespace jostle {
 /// and in their order, so that no two of one colour share a rod: pairs of a colour can be solved by any threads in any
 /// order with the same result.
 ///
-/// Contacts that neither push nor are about to are left out of most sweeps. Before the result is called solved, the
-/// residual is computed anew over all contacts from A itself. LcpResult::iterations counts sweeps.
-LcpResult solve_projected_sor(const ContactMatrix& contact_matrix, const Mobility& mobility,
-                              const DelassusOperator& matrix, const LcpProblem& problem, const LcpSettings& settings,
-                              std::span<const double> start = {});
+/// Only contacts that push, or are about to, take part in most sweeps. Before the result is called solved, forces and
+/// velocities are computed anew from gamma, and the residual over all contacts from them. Missed contacts are asked for
+/// once early, while they are still cheap to add, and then with every solution. The outcome's iterations are sweeps.
+SolverOutcome solve_projected_sor(const ContactProblem& problem, const LcpSettings& settings,
+                                  ContactSolution& solution);
 
 }  // namespace jostle

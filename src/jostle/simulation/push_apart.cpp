@@ -20,15 +20,18 @@ constexpr double tolerance = 1e-4;
 constexpr std::uint64_t iterations_each_round = 300;
 
 /// Moves the rods by the velocities (time step 1), all slowed down alike so that none goes too far.
-void move(Rods& rods, const Box& box, const Velocities& velocities, double limit) {
-    const double fastest = parallel_max(rods.size(), 0.0, [&](std::size_t i) {
-        return norm(velocities.linear[i]) + 0.5 * rods.length[i] * norm(velocities.angular[i]);
+void move(Rods& rods, const Box& box, const ContactSolution& solution, double limit) {
+    const double fastest = parallel_max(solution.rods.size(), 0.0, [&](std::size_t place) {
+        const auto& [linear, turning] = solution.velocities[place];
+        return norm(linear) + 0.5 * rods.length[solution.rods[place]] * norm(turning);
     });
     const double fraction = fastest > limit ? limit / fastest : 1.0;
-    parallel_for(rods.size(), [&](std::size_t i) {
-        rods.centre[i] += fraction * velocities.linear[i];
-        box.wrap(rods.centre[i], rods.image[i]);
-        rods.axis[i] = rotated(rods.axis[i], fraction * velocities.angular[i]);
+    parallel_for(solution.rods.size(), [&](std::size_t place) {
+        const std::uint32_t row = solution.rods[place];
+        const auto& [linear, turning] = solution.velocities[place];
+        rods.centre[row] += fraction * linear;
+        box.wrap(rods.centre[row], rods.image[row]);
+        rods.axis[row] = rotated(rods.axis[row], fraction * cross(rods.axis[row], turning));
     });
 }
 
@@ -41,8 +44,6 @@ PushApartResult push_apart(Rods& rods, const Box& box, Mobility& mobility, int l
     NeighbourList neighbours(0.5 * thinnest);
     const std::vector<double> reaches(rods.size(), reach * thinnest);
     Contacts contacts;
-    Forces forces(rods.size());
-    Velocities velocities(rods.size());
     for (;; ++result.rounds) {
         neighbours.update(rods, box, reaches);
         result.overlap = find_contacts(rods, box, neighbours, reaches, contacts);
@@ -53,17 +54,17 @@ PushApartResult push_apart(Rods& rods, const Box& box, Mobility& mobility, int l
         parallel_for(b.size(), [&](std::size_t l) {
             b[l] = std::max(contacts.contact[l].gap - free_space * thinnest, -opened_each_round * thinnest);
         });
-        const ContactMatrix contact_matrix(contacts, rods);
-        const DelassusOperator matrix(contact_matrix, mobility);
+        const ContactMatrix contact_matrix(contacts, rods.size());
+        const DelassusOperator matrix(contact_matrix, rods, mobility);
         LcpSettings settings;
         settings.tolerance = tolerance * thinnest;
         settings.max_iterations = iterations_each_round;
         // A rough solution still leads apart; only the last rounds need to be, and are, solved to the tolerance.
-        const LcpResult solved = solve_contact_problem(contact_matrix, mobility, matrix, {matrix, b, 1.0},
-                                                       SolverMethod::automatic, settings);
-        if (solved.status == LcpStatus::not_finite) return result;
-        matrix.velocities(solved.solution, forces, velocities);
-        move(rods, box, velocities, largest_move * thinnest);
+        ContactSolution solution;
+        const SolverOutcome outcome =
+            solve_contact_problem({matrix, b, 1.0, {}}, SolverMethod::automatic, settings, solution);
+        if (outcome.status == LcpStatus::not_finite) return result;
+        move(rods, box, solution, largest_move * thinnest);
     }
 }
 

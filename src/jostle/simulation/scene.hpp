@@ -12,7 +12,7 @@ namespace jostle {
 enum class UnitSystem { reduced, micro };
 enum class StartKind { random, aligned, lattice, file };
 enum class MobilityModel { slender_body, finite_aspect_ratio };
-enum class SolverMethod { automatic, projected_sor, bbpgd };
+enum class SolverMethod { automatic, projected_sor, bbpgd, adaptive_bb, apgd, minimum_map_newton };
 enum class StepRule { bb1, bb2, alternating };
 enum class ResidualKind { length, paper };
 

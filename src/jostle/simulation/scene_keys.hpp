@@ -116,9 +116,13 @@ constexpr auto words(MobilityModel) {
         {{"slender_body", MobilityModel::slender_body}, {"finite_aspect_ratio", MobilityModel::finite_aspect_ratio}});
 }
 constexpr auto words(SolverMethod) {
-    return std::to_array<std::pair<std::string_view, SolverMethod>>({{"auto", SolverMethod::automatic},
-                                                                     {"projected_sor", SolverMethod::projected_sor},
-                                                                     {"bbpgd", SolverMethod::bbpgd}});
+    return std::to_array<std::pair<std::string_view, SolverMethod>>(
+        {{"auto", SolverMethod::automatic},
+         {"projected_sor", SolverMethod::projected_sor},
+         {"bbpgd", SolverMethod::bbpgd},
+         {"adaptive_bb", SolverMethod::adaptive_bb},
+         {"apgd", SolverMethod::apgd},
+         {"minimum_map_newton", SolverMethod::minimum_map_newton}});
 }
 constexpr auto words(StepRule) {
     return std::to_array<std::pair<std::string_view, StepRule>>(

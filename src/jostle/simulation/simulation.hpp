@@ -3,8 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "jostle/contact/contacts.hpp"
-#include "jostle/contact/neighbour_list.hpp"
+#include "jostle/contact/collision_search.hpp"
 #include "jostle/mobility/mobility.hpp"
 #include "jostle/motion/motion.hpp"
 #include "jostle/rods/box.hpp"
@@ -29,17 +28,11 @@ struct SimulationSettings {
     LcpSettings lcp;  ///< tolerance as a length
 };
 
-/// The contact forces of the last step.
-struct ContactSolution {
-    std::vector<double> gamma;  ///< per contact, >= 0
-    Forces forces;              ///< D gamma, per rod
-    Velocities velocities;      ///< M D gamma, per rod
-};
-
 /// Rods in a box, and the step that moves them.
 ///
 /// State (rods, clock) is apart from settings and results: a simulation made from the state of another goes on bit for
-/// bit as that one would have, for any number of threads. Neighbour list and contacts are only a cache.
+/// bit as that one would have, for any number of threads. Neighbour list and contacts are only a cache. Rows of the
+/// rods change now and then, to keep neighbours near each other in memory; ids stay.
 class Simulation {
 public:
     Simulation(Box box, Rods rods, Clock clock, std::unique_ptr<Mobility> mobility,
@@ -60,13 +53,18 @@ public:
     const ContactSolution& contact_solution() const { return solution_; }
 
 private:
+    void renumber();
     void find_known_velocity();
     void find_contacts(StepReport& report);
     void solve_contacts(StepReport& report);
-    bool all_collisions_seen();
-    void measure_stress(StepReport& report) const;
+    void measure_stress(StepReport& report);
     void advance();
-    std::vector<double> gap_velocities_without_forces(std::span<const double> diagonal) const;
+
+    void take_over_rods();
+    RodMotion motion() const { return {moved_.centre, moved_.axis, displacement_, shift_}; }
+    void extend_gap_velocities(const DelassusOperator& matrix, std::vector<double>& b) const;
+    bool add_missed_contacts(const ContactMatrix& contact_matrix, const ContactSolution& solution, bool final);
+    std::pair<Vec3, Vec3> pushed(std::uint32_t row, const ContactVelocity& velocity) const;
 
     Box box_;
     Rods rods_;
@@ -75,10 +73,14 @@ private:
     std::vector<std::unique_ptr<Motion>> motions_;
     SimulationSettings settings_;
 
-    std::vector<double> shift_reach_;  ///< (N) upper bound of each rod's part in the shift of a gap
-    NeighbourList neighbours_;
-    std::vector<double> reach_;  ///< (N) how far each rod may come towards others in this step
-    Velocities known_;           ///< U_known
+    CollisionSearch search_;
+    std::vector<double> shift_;         ///< (N) upper bound of each rod's part in the shift of a gap
+    Velocities known_;                  ///< (N) U_known
+    std::vector<double> displacement_;  ///< (N) by it, of any point of the rod, at most
+    struct {
+        std::vector<Vec3> centre, axis;
+    } moved_;                   ///< (N) the rods after the known motion
+    std::vector<Push> pushes_;  ///< (N) by contact forces
     Contacts contacts_;
     ContactSolution solution_;
 };

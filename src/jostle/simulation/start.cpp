@@ -11,6 +11,7 @@
 #include "jostle/math/random.hpp"
 #include "jostle/mobility/drag_mobility.hpp"
 #include "jostle/motion/brownian_motion.hpp"
+#include "jostle/rods/space_filling_order.hpp"
 #include "jostle/simulation/largest_overlap.hpp"
 #include "jostle/simulation/push_apart.hpp"
 #include "jostle/simulation/simulation.hpp"
@@ -95,7 +96,7 @@ Rods pushed_apart(Rods rods, const Box& box, bool turning, const Scene& scene) {
              .suggestion = "Use a lower volume fraction, a roomier box, or start = \"aligned\" or \"lattice\""});
     }
     rods.image.assign(rods.size(), Image{0, 0, 0});
-    return rods;
+    return reordered(rods, id_order(rods));  // shaking has renumbered them
 }
 
 /// Of every two rods that overlap the one with the higher id.

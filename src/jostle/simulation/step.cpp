@@ -1,9 +1,8 @@
 // One step of the simulation, in the order of docs/theory: read `step`, then the five functions below it.
 
-#include <algorithm>
 #include <chrono>
+#include <tuple>
 
-#include "jostle/contact/find_contacts.hpp"
 #include "jostle/math/rotation.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/simulation/delassus_operator.hpp"
@@ -14,9 +13,6 @@
 namespace jostle {
 
 namespace {
-
-/// Beyond its known motion a rod is given this much (in D) to be pushed by others before contacts are looked for again.
-constexpr double push_allowance = 0.02;
 
 /// Adds the time since the last call to a phase of the report.
 class PhaseTimer {
@@ -34,29 +30,6 @@ private:
     Clock::time_point last_;
 };
 
-/// How far any point of rod `i` moves at most in a step with these velocities.
-double largest_displacement(const Rods& rods, std::size_t i, const Velocities& velocities, double time_step) {
-    return time_step * (norm(velocities.linear[i]) + 0.5 * rods.length[i] * norm(velocities.angular[i]));
-}
-
-/// gamma of `old_contacts` carried over to those of `contacts` that are the same; 0 for new ones.
-std::vector<double> carried_over(const Contacts& old_contacts, const std::vector<double>& gamma,
-                                 const Contacts& contacts) {
-    const auto place = [](const Contacts& in, std::size_t l) {
-        return std::make_tuple(in.contact[l].i, in.contact[l].j, in.image[l]);
-    };
-    std::vector<double> carried(contacts.size(), 0.0);
-    std::size_t old = 0;
-    for (std::size_t l = 0; l < contacts.size(); ++l) {
-        while (old < old_contacts.size() && place(old_contacts, old) < place(contacts, l)) ++old;
-        for (std::size_t k = old; k < old_contacts.size() && place(old_contacts, k) == place(contacts, l); ++k)
-            if (old_contacts.contact[k].arm_i == contacts.contact[l].arm_i &&
-                old_contacts.contact[k].arm_j == contacts.contact[l].arm_j)
-                carried[l] = gamma[k];
-    }
-    return carried;
-}
-
 }  // namespace
 
 StepReport Simulation::step() {
@@ -65,18 +38,14 @@ StepReport Simulation::step() {
     report.time = clock_.time;
     PhaseTimer timer(report);
 
+    renumber();
     find_known_velocity();
     timer.finish(StepPhase::known_velocity);
-    bool seen = false;
-    do {
-        find_contacts(report);
-        timer.finish(StepPhase::find_contacts);
-        solve_contacts(report);
-        timer.finish(StepPhase::solve_contacts);
-        if (report.status != LcpStatus::converged) return report;
-        seen = all_collisions_seen();
-        timer.finish(StepPhase::find_contacts);
-    } while (!seen);
+    find_contacts(report);
+    timer.finish(StepPhase::find_contacts);
+    solve_contacts(report);
+    timer.finish(StepPhase::solve_contacts);
+    if (report.status != LcpStatus::converged) return report;
     measure_stress(report);
     timer.finish(StepPhase::measure_stress);
     advance();
@@ -84,107 +53,130 @@ StepReport Simulation::step() {
     return report;
 }
 
-// Theory 2.1: U_known, the sum of all motions; and how far it lets each rod come towards others.
+// Theory 2.1: U_known, the sum of all motions, and where it would take the rods.
 void Simulation::find_known_velocity() {
     parallel_for(rods_.size(), [&](std::size_t i) { known_.linear[i] = known_.angular[i] = Vec3{}; });
-    for (const auto& motion : motions_)
-        motion->add_to(known_, rods_, {settings_.seed, clock_.step, settings_.time_step});
+    for (const auto& cause : motions_) cause->add_to(known_, rods_, {settings_.seed, clock_.step, settings_.time_step});
     parallel_for(rods_.size(), [&](std::size_t i) {
-        const double moved = largest_displacement(rods_, i, known_, settings_.time_step);
-        reach_[i] = std::max(moved + shift_reach_[i] + push_allowance * rods_.diameter[i], 0.5 * settings_.range);
+        moved_.centre[i] = rods_.centre[i] + settings_.time_step * known_.linear[i];
+        moved_.axis[i] = rotated(rods_.axis[i], settings_.time_step * known_.angular[i]);
+        displacement_[i] = farthest_displacement(moved_.centre[i] - rods_.centre[i], moved_.axis[i] - rods_.axis[i],
+                                                 0.5 * rods_.length[i]);
+        pushes_[i] = {};
     });
-    contacts_.clear();
-    solution_.gamma.clear();
 }
 
-// Theory 2.2: all pairs of points that may touch in this step. A second call in the same step, with a larger reach,
-// keeps gamma.
+// Theory 2.2: all pairs of points that may touch in this step.
 void Simulation::find_contacts(StepReport& report) {
-    neighbours_.update(rods_, box_, reach_);
-    const Contacts before = std::move(contacts_);
-    contacts_ = Contacts{};
-    report.max_overlap = jostle::find_contacts(rods_, box_, neighbours_, reach_, contacts_);
-    report.contacts = contacts_.size();
-    solution_.gamma = carried_over(before, solution_.gamma, contacts_);
+    report.max_overlap = search_.find(rods_, box_, motion(), contacts_);
 }
 
-// Theory 2.3: 0 <= A gamma + b  perp  gamma >= 0.
+// Theory 2.3: 0 <= A gamma + b  perp  gamma >= 0, with more contacts where forces turn out to bring rods together.
 void Simulation::solve_contacts(StepReport& report) {
-    const ContactMatrix contact_matrix(contacts_, rods_);
-    const DelassusOperator matrix(contact_matrix, *mobility_);
-    const std::vector<double> constant = gap_velocities_without_forces(matrix.diagonal());
-    const bool again = report.solves > 0;
-    LcpResult result =
-        solve_contact_problem(contact_matrix, *mobility_, matrix, {matrix, constant, settings_.time_step},
-                              settings_.method, settings_.lcp, again ? solution_.gamma : std::span<const double>{});
-    solution_.gamma = std::move(result.solution);
-    matrix.velocities(solution_.gamma, solution_.forces, solution_.velocities);
-    report.status = result.status;
-    report.residual = result.residual;
-    report.iterations += result.iterations;
-    ++report.solves;
+    using Include = ContactMatrix::Include;
+    ContactMatrix contact_matrix(contacts_, rods_.size(),
+                                 mobility_->couples_rods() ? Include::all_rods : Include::rods_with_contacts);
+    DelassusOperator matrix(contact_matrix, rods_, *mobility_);
+    std::vector<double> b;
+    extend_gap_velocities(matrix, b);
+    const auto add_missed = [&](const ContactSolution& solution, bool final) {
+        if (!add_missed_contacts(contact_matrix, solution, final)) return false;
+        contact_matrix.extend();
+        matrix.extend();
+        extend_gap_velocities(matrix, b);
+        return true;
+    };
+    const SolverOutcome outcome =
+        solve_contact_problem({matrix, b, settings_.time_step, add_missed}, settings_.method, settings_.lcp, solution_);
+    report.status = outcome.status;
+    report.residual = outcome.residual;
+    report.iterations = outcome.iterations;
+    report.solves = outcome.solves;
+    report.contacts = contacts_.size();
 }
 
 // b of the contact problem (theory, eq. 3.3): the gap after the known motion, shifted, over dt; or as in the paper,
 // b = Phi/dt + D^T U_known.
-std::vector<double> Simulation::gap_velocities_without_forces(std::span<const double> diagonal) const {
+void Simulation::extend_gap_velocities(const DelassusOperator& matrix, std::vector<double>& b) const {
     const double dt = settings_.time_step;
-    std::vector<double> b(contacts_.size());
-    if (!settings_.brownian_correction) {
-        ContactMatrix(contacts_, rods_).apply_transpose(known_, b);
-        parallel_for(b.size(), [&](std::size_t l) { b[l] += contacts_.contact[l].gap / dt; });
-        return b;
-    }
-    std::vector<Vec3> centre(rods_.size()), axis(rods_.size());
-    parallel_for(rods_.size(), [&](std::size_t i) {
-        centre[i] = rods_.centre[i] + dt * known_.linear[i];
-        axis[i] = rotated(rods_.axis[i], dt * known_.angular[i]);
+    const std::size_t known = b.size();
+    b.resize(contacts_.size());
+    parallel_for(b.size() - known, [&](std::size_t k) {
+        const std::size_t l = known + k;
+        const Contact& contact = contacts_.contact[l];
+        if (settings_.brownian_correction) {
+            b[l] = (contact.gap_after - brownian_shift(settings_.kT, dt, matrix.diagonal()[l])) / dt;
+            return;
+        }
+        const auto point_velocity = [&](std::uint32_t row, double arm) {
+            return known_.linear[row] + arm * cross(known_.angular[row], rods_.axis[row]);
+        };
+        b[l] = contact.gap / dt +
+               dot(contact.normal, point_velocity(contact.j, contact.arm_j) - point_velocity(contact.i, contact.arm_i));
     });
-    parallel_for(b.size(), [&](std::size_t l) {
-        const double shift = brownian_shift(settings_.kT, dt, diagonal[l]);
-        b[l] = (gap_at(contacts_, l, rods_, box_, centre, axis) - shift) / dt;
-    });
-    return b;
 }
 
-// Rods may be pushed farther than contacts were looked for. If one then met another unseen, widen the reach and say no.
-bool Simulation::all_collisions_seen() {
-    Velocities total = known_;
-    parallel_for(rods_.size(), [&](std::size_t i) {
-        total.linear[i] += solution_.velocities.linear[i];
-        total.angular[i] += solution_.velocities.angular[i];
+// Centre and axis of a rod after the step, with the velocity that contact forces give it.
+std::pair<Vec3, Vec3> Simulation::pushed(std::uint32_t row, const ContactVelocity& velocity) const {
+    const double dt = settings_.time_step;
+    const Vec3& axis = rods_.axis[row];
+    return {rods_.centre[row] + dt * (known_.linear[row] + velocity.centre),
+            rotated(axis, dt * (known_.angular[row] + cross(axis, velocity.turning)))};
+}
+
+// Rods may be pushed into others that were no contacts. Says whether there were such, and makes them contacts.
+bool Simulation::add_missed_contacts(const ContactMatrix& contact_matrix, const ContactSolution& solution, bool final) {
+    const double dt = settings_.time_step;
+    const auto rows = contact_matrix.rods();
+    parallel_for(rows.size(), [&](std::size_t place) {
+        const std::uint32_t row = rows[place];
+        const auto& [linear, turning] = solution.velocities[place];
+        const double half = 0.5 * rods_.length[row];
+        // Rotations add up to second order in their angles.
+        const double twist = half * dt * dt * norm(turning) * norm(known_.angular[row]);
+        const Vec3 centre = dt * linear, end = (dt * half) * turning;
+        const double farthest = farthest_displacement(centre, dt * turning, half) + twist;
+        const double rounding = 1e-6 * farthest;
+        const auto single = [](const Vec3& a) {
+            return std::array{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
+        };
+        pushes_[row] = {single(centre), single(end), static_cast<float>(farthest + rounding),
+                        static_cast<float>(twist + rounding)};
     });
-    std::vector<double> needed(rods_.size());
-    parallel_for(rods_.size(), [&](std::size_t i) {
-        needed[i] = std::max(reach_[i], largest_displacement(rods_, i, total, settings_.time_step) + shift_reach_[i]);
-    });
-    if (needed == reach_) return true;
-    neighbours_.update(rods_, box_, needed);
-    const Movement movement{reach_, needed, shift_reach_, total, settings_.time_step};
-    const bool unseen = any_unseen_collision(rods_, box_, neighbours_, movement);
-    if (unseen) reach_ = std::move(needed);
-    return !unseen;
+    const RodAfter after = [&](std::uint32_t row) -> std::pair<Vec3, Vec3> {
+        const std::uint32_t place = contact_matrix.place_of(row);
+        if (place == ContactMatrix::no_place) return {moved_.centre[row], moved_.axis[row]};
+        return pushed(row, solution.velocities[place]);
+    };
+    const auto missed = search_.missed_pairs(rods_, box_, motion(), contacts_, pushes_, after, final);
+    search_.add(missed, rods_, box_, motion(), contacts_);
+    return !missed.empty();
 }
 
 // Theory 1: the sum over contacts of (r_j - r_i) F, and over rods of the geometric part of the net torque.
-void Simulation::measure_stress(StepReport& report) const {
+void Simulation::measure_stress(StepReport& report) {
     const auto distance = settings_.brownian_correction ? ContactDistance::touching : ContactDistance::at_start;
+    std::vector<Vec3> torque(solution_.rods.size());
+    parallel_for(torque.size(), [&](std::size_t place) {
+        torque[place] = cross(rods_.axis[solution_.rods[place]], solution_.forces[place].lever);
+    });
     report.collision_virial =
-        sum_of_pair_stresses(contacts_, solution_.gamma, rods_, solution_.forces.torque, distance);
-    report.active_contacts = static_cast<std::size_t>(
-        std::count_if(solution_.gamma.begin(), solution_.gamma.end(), [](double gamma) { return gamma > 0.0; }));
+        sum_of_pair_stresses(contacts_, solution_.gamma, rods_, {solution_.rods, torque}, distance);
+    report.active_contacts = parallel_sum<std::size_t>(
+        solution_.gamma.size(), [&](std::size_t l) { return solution_.gamma[l] > 0.0 ? std::size_t{1} : 0; });
 }
 
 // Theory 2.4: q^{k+1} = q^k + dt (U_known + U_C), axes by the exponential map.
 void Simulation::advance() {
-    const double dt = settings_.time_step;
-    parallel_for(rods_.size(), [&](std::size_t i) {
-        rods_.centre[i] += dt * (known_.linear[i] + solution_.velocities.linear[i]);
-        box_.wrap(rods_.centre[i], rods_.image[i]);
-        rods_.axis[i] = rotated(rods_.axis[i], dt * (known_.angular[i] + solution_.velocities.angular[i]));
+    parallel_for(solution_.rods.size(), [&](std::size_t place) {
+        const std::uint32_t row = solution_.rods[place];
+        std::tie(moved_.centre[row], moved_.axis[row]) = pushed(row, solution_.velocities[place]);
     });
+    rods_.centre.swap(moved_.centre);
+    rods_.axis.swap(moved_.axis);
+    parallel_for(rods_.size(), [&](std::size_t i) { box_.wrap(rods_.centre[i], rods_.image[i]); });
     ++clock_.step;
-    clock_.time = static_cast<double>(clock_.step) * dt;
+    clock_.time = static_cast<double>(clock_.step) * settings_.time_step;
 }
 
 }  // namespace jostle

@@ -21,14 +21,15 @@ void require_rows(const char* key, std::size_t rows, std::size_t needed, const c
 }  // namespace
 
 Mat3 sum_of_pair_stresses(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
-                          std::span<const Vec3> torque, ContactDistance distance) {
-    return centre_of_mass_virial(contacts, gamma, rods, distance) + geometric_stress(rods, torque);
+                          const RodTorques& torques, ContactDistance distance) {
+    return centre_of_mass_virial(contacts, gamma, rods, distance) + geometric_stress(rods, torques);
 }
 
 Mat3 centre_of_mass_virial(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
                            ContactDistance distance) {
     require_rows("gamma", gamma.size(), contacts.size(), "contact");
     return parallel_sum<Mat3>(contacts.size(), [&](std::size_t l) {
+        if (gamma[l] == 0.0) return Mat3{};
         const Contact& contact = contacts.contact[l];
         const double radii = 0.5 * (rods.diameter[contact.i] + rods.diameter[contact.j]);
         const double apart = distance == ContactDistance::touching ? radii : radii + contact.gap;
@@ -38,10 +39,11 @@ Mat3 centre_of_mass_virial(const Contacts& contacts, std::span<const double> gam
     });
 }
 
-Mat3 geometric_stress(const Rods& rods, std::span<const Vec3> torque) {
-    require_rows("torque", torque.size(), rods.size(), "rod");
-    return parallel_sum<Mat3>(rods.size(), [&](std::size_t i) {
-        return geometric_stress_of_rod(rods.axis[i], rods.length[i], rods.diameter[i], torque[i]);
+Mat3 geometric_stress(const Rods& rods, const RodTorques& torques) {
+    require_rows("torque", torques.torque.size(), torques.rods.size(), "rod");
+    return parallel_sum<Mat3>(torques.rods.size(), [&](std::size_t k) {
+        const std::uint32_t row = torques.rods[k];
+        return geometric_stress_of_rod(rods.axis[row], rods.length[row], rods.diameter[row], torques.torque[k]);
     });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -20,12 +21,18 @@ enum class ContactDistance {
     at_start   ///< the gap that the step began with, as in the paper
 };
 
+/// Torques on some of the rods; the others feel none.
+struct RodTorques {
+    std::span<const std::uint32_t> rods;  ///< rows, one a torque
+    std::span<const Vec3> torque;
+};
+
 /// Sum over contacts of the pair stress, V Sigma_col = centre_of_mass_virial + geometric_stress (theory, eq. 1.1).
 ///
-/// `gamma`: one force a contact, >= 0. `torque` (N, 3): net collision torque about each rod's centre, that of D gamma.
+/// `gamma`: one force a contact, >= 0. `torques`: net collision torques about the rods' centres, those of D gamma.
 /// Throws InputError if a size is wrong.
 Mat3 sum_of_pair_stresses(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
-                          std::span<const Vec3> torque, ContactDistance distance = ContactDistance::touching);
+                          const RodTorques& torques, ContactDistance distance = ContactDistance::touching);
 
 /// Sum over contacts of (r_j - r_i) F, with r_j - r_i = arm_i n_i + distance normal - arm_j n_j and F = gamma normal on
 /// rod j.
@@ -34,10 +41,10 @@ Mat3 sum_of_pair_stresses(const Contacts& contacts, std::span<const double> gamm
 Mat3 centre_of_mass_virial(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
                            ContactDistance distance = ContactDistance::touching);
 
-/// Sum over rods of the geometric stress under their net collision torques.
+/// Sum over rods of the geometric stress under their net collision torques, about their centres.
 ///
-/// `torque` (N, 3) about the rods' centres. Throws InputError if their number is wrong.
-Mat3 geometric_stress(const Rods& rods, std::span<const Vec3> torque);
+/// Throws InputError if there is not one torque a row.
+Mat3 geometric_stress(const Rods& rods, const RodTorques& torques);
 
 /// Geometric stress of a rod with axis n under a torque T: (1/G_perp)[N_par n (T x n) - N_perp (T x n) n] for T across
 /// n.

@@ -25,14 +25,26 @@ struct Assembly {
     }
 };
 
+struct Velocities {
+    std::vector<Vec3> linear, angular;  ///< (N)
+};
+
 Velocities random_velocities(std::size_t count, std::mt19937_64& engine) {
     std::normal_distribution<double> normal;
-    Velocities velocities(count);
+    Velocities velocities;
     for (std::size_t k = 0; k < count; ++k) {
-        velocities.linear[k] = {normal(engine), normal(engine), normal(engine)};
-        velocities.angular[k] = {normal(engine), normal(engine), normal(engine)};
+        velocities.linear.push_back({normal(engine), normal(engine), normal(engine)});
+        velocities.angular.push_back({normal(engine), normal(engine), normal(engine)});
     }
     return velocities;
+}
+
+/// U and W = Omega x axis of the rods with contacts.
+std::vector<ContactVelocity> of_places(const Velocities& velocities, const ContactMatrix& D, const Rods& rods) {
+    std::vector<ContactVelocity> result;
+    for (const std::uint32_t row : D.rods())
+        result.push_back({velocities.linear[row], cross(velocities.angular[row], rods.axis[row])});
+    return result;
 }
 
 }  // namespace
@@ -43,9 +55,9 @@ TEST_CASE("D^T is the gradient of the gaps: finite differences") {
         REQUIRE(assembly.contacts.size() > 20);
         std::mt19937_64 engine(17);
         const Velocities velocities = random_velocities(assembly.rods.size(), engine);
-        const ContactMatrix D(assembly.contacts, assembly.rods);
+        const ContactMatrix D(assembly.contacts, assembly.rods.size());
         std::vector<double> rates(assembly.contacts.size());
-        D.apply_transpose(velocities, rates);
+        D.apply_transpose(of_places(velocities, D, assembly.rods), rates);
 
         const double h = 1e-6;
         const auto gap_after = [&](std::size_t l, double time) {
@@ -70,7 +82,7 @@ TEST_CASE("D and D^T are transposes, also where a rod meets its own image") {
     Assembly assembly({15, 4, 3}, 16, 9);
     std::mt19937_64 engine(23);
     std::normal_distribution<double> normal;
-    const ContactMatrix D(assembly.contacts, assembly.rods);
+    const ContactMatrix D(assembly.contacts, assembly.rods.size());
     bool self_contact = false;
     for (const Contact& contact : assembly.contacts.contact) self_contact |= contact.i == contact.j;
     REQUIRE(self_contact);
@@ -78,24 +90,44 @@ TEST_CASE("D and D^T are transposes, also where a rod meets its own image") {
         std::vector<double> gamma(assembly.contacts.size()), rates(assembly.contacts.size());
         for (double& value : gamma) value = normal(engine);
         const Velocities velocities = random_velocities(assembly.rods.size(), engine);
-        Forces forces(assembly.rods.size());
+        std::vector<ContactForce> forces(D.rods().size());
+        const std::vector<ContactVelocity> moving = of_places(velocities, D, assembly.rods);
         D.apply(gamma, forces);
-        D.apply_transpose(velocities, rates);
-        double by_contacts = 0.0, by_rods = 0.0;
+        D.apply_transpose(moving, rates);
+        double by_contacts = 0.0, by_rods = 0.0, by_torques = 0.0;
         for (std::size_t l = 0; l < gamma.size(); ++l) by_contacts += gamma[l] * rates[l];
-        for (std::size_t k = 0; k < forces.size(); ++k)
-            by_rods += dot(forces.force[k], velocities.linear[k]) + dot(forces.torque[k], velocities.angular[k]);
+        for (std::size_t k = 0; k < forces.size(); ++k) {
+            const std::uint32_t row = D.rods()[k];
+            const double centre = dot(forces[k].force, moving[k].centre);
+            by_rods += centre + dot(forces[k].lever, moving[k].turning);
+            by_torques += centre + dot(cross(assembly.rods.axis[row], forces[k].lever), velocities.angular[row]);
+        }
+        CHECK(by_torques == doctest::Approx(by_rods).epsilon(1e-12));
         CHECK(by_contacts == doctest::Approx(by_rods).epsilon(1e-12));
     }
 }
 
 TEST_CASE("contact forces have no net force") {
     Assembly assembly({8, 8, 8}, 24, 13);
-    const ContactMatrix D(assembly.contacts, assembly.rods);
+    const ContactMatrix D(assembly.contacts, assembly.rods.size());
     const std::vector<double> gamma(assembly.contacts.size(), 1.0);
-    Forces forces(assembly.rods.size());
+    std::vector<ContactForce> forces(D.rods().size());
     D.apply(gamma, forces);
     Vec3 net;
-    for (const Vec3& force : forces.force) net += force;
+    for (const ContactForce& force : forces) net += force.force;
     CHECK(norm(net) < 1e-12 * static_cast<double>(gamma.size()));
+}
+
+TEST_CASE("rods without contacts have no place, unless all rods are asked for") {
+    Rods rods;
+    for (std::uint64_t k = 0; k < 5; ++k) rods.push_back(k, {3.0 * static_cast<double>(k), 0, 0}, {0, 0, 1}, 1.0, 1.0);
+    Contacts contacts;
+    contacts.push_back({1, 3, {1, 0, 0}, 0.1, 0.2, 0.0, 0.0}, {0, 0, 0}, ContactFeature::nearest);
+    const ContactMatrix some(contacts, rods.size());
+    CHECK(std::vector<std::uint32_t>(some.rods().begin(), some.rods().end()) == std::vector<std::uint32_t>{1, 3});
+    CHECK(some.ends()[0].i == 0);
+    CHECK(some.ends()[0].j == 1);
+    const ContactMatrix all(contacts, rods.size(), ContactMatrix::Include::all_rods);
+    CHECK(all.rods().size() == 5);
+    CHECK(all.ends()[0].j == 3);
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <functional>
 #include <random>
 #include <vector>
 
@@ -31,10 +32,22 @@ RodMobility drag_law(double length, double diameter) {
     return finite_aspect_ratio_drag(length, diameter, 0.8);
 }
 
-using Apply = void (DragMobility::*)(const Rods&, const Forces&, Velocities&) const;
+using Apply = std::function<void(const Rods&, const Forces&, Velocities&)>;
+
+/// B, by the interface that adds B xi to velocities.
+Apply square_root_of(const DragMobility& mobility) {
+    return [&mobility](const Rods& rods, const Forces& xi, Velocities& velocities) {
+        std::vector<Normals> normals(rods.size());
+        for (std::size_t i = 0; i < rods.size(); ++i)
+            normals[i] = {xi.force[i].x, xi.force[i].y, xi.force[i].z, xi.torque[i].x, xi.torque[i].y, xi.torque[i].z};
+        velocities = Velocities(rods.size());
+        mobility.add_square_root(rods, normals, 0.25, velocities);
+        mobility.add_square_root(rods, normals, 0.75, velocities);  // it adds
+    };
+}
 
 /// The 6N x 6N matrix of a linear map, column by column from unit vectors.
-Eigen::MatrixXd matrix_of(const DragMobility& mobility, const Rods& rods, Apply apply) {
+Eigen::MatrixXd matrix_of(const Rods& rods, const Apply& apply) {
     const auto size = static_cast<Eigen::Index>(6 * rods.size());
     Eigen::MatrixXd matrix(size, size);
     for (Eigen::Index column = 0; column < size; ++column) {
@@ -43,7 +56,7 @@ Eigen::MatrixXd matrix_of(const DragMobility& mobility, const Rods& rods, Apply 
         const int k = static_cast<int>(column % 6);
         (k < 3 ? unit.force[rod][k] : unit.torque[rod][k - 3]) = 1.0;
         Velocities answer;
-        (mobility.*apply)(rods, unit, answer);
+        apply(rods, unit, answer);
         REQUIRE(answer.size() == rods.size());
         for (Eigen::Index row = 0; row < size; ++row) {
             const auto moved = static_cast<std::size_t>(row / 6);
@@ -77,8 +90,11 @@ TEST_CASE("M is symmetric, positive on all but the spins, and B B^T = M") {
     const Rods rods = random_rods(6);
     DragMobility mobility(drag_law);
     mobility.update(rods);
-    const Eigen::MatrixXd m = matrix_of(mobility, rods, &DragMobility::apply);
-    const Eigen::MatrixXd b = matrix_of(mobility, rods, &DragMobility::apply_square_root);
+    const Apply apply = [&](const Rods& all, const Forces& forces, Velocities& velocities) {
+        mobility.apply(all, forces, velocities);
+    };
+    const Eigen::MatrixXd m = matrix_of(rods, apply);
+    const Eigen::MatrixXd b = matrix_of(rods, square_root_of(mobility));
     const double scale = m.cwiseAbs().maxCoeff();
     CHECK((m - m.transpose()).cwiseAbs().maxCoeff() <= 1e-15 * scale);
     CHECK((b * b.transpose() - m).cwiseAbs().maxCoeff() <= 4e-15 * scale);
@@ -129,9 +145,9 @@ TEST_CASE("the same bits for any number of threads") {
     const int threads_before = parallel::thread_count();
     Velocities one, three;
     parallel::set_thread_count(1);
-    mobility.apply_square_root(rods, forces, one);
+    square_root_of(mobility)(rods, forces, one);
     parallel::set_thread_count(3);
-    mobility.apply_square_root(rods, forces, three);
+    square_root_of(mobility)(rods, forces, three);
     parallel::set_thread_count(threads_before);
     CHECK(one.linear == three.linear);
     CHECK(one.angular == three.angular);

@@ -25,8 +25,8 @@ TEST_CASE("A is symmetric and positive semi-definite, and its diagonal is as tol
         neighbours.update(rods, box, reach);
         Contacts contacts;
         find_contacts(rods, box, neighbours, reach, contacts);
-        const ContactMatrix D(contacts, rods);
-        const DelassusOperator A(D, mobility);
+        const ContactMatrix D(contacts, rods.size());
+        const DelassusOperator A(D, rods, mobility);
         const auto count = static_cast<Eigen::Index>(A.size());
         REQUIRE(count > 20);
 

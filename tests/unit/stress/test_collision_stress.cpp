@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/parallel/parallel_for.hpp"
@@ -25,6 +26,12 @@ Rods random_rods(std::mt19937_64& generator, std::size_t count) {
         rods.push_back(k, centre, axis, rod_length, diameter(generator));
     }
     return rods;
+}
+
+std::vector<std::uint32_t> all_rows(const Rods& rods) {
+    std::vector<std::uint32_t> rows(rods.size());
+    std::iota(rows.begin(), rows.end(), 0U);
+    return rows;
 }
 
 /// A contact of any two rods at random points of their segments; the normal has any direction, so the torques have,
@@ -53,10 +60,11 @@ TEST_CASE("sum over contacts of the pair stress = sum of virials + sum over rods
         Contacts contacts;
         std::vector<double> gamma;
         std::vector<Vec3> torque(rods.size());
+        const std::vector<std::uint32_t> rows = all_rows(rods);
         Mat3 over_contacts;
         for (int k = 0; k < 200; ++k) {
             const Contact contact = random_contact(generator, rods);
-            const auto& [i, j, normal, arm_i, arm_j, gap] = contact;
+            const auto& [i, j, normal, arm_i, arm_j, gap, gap_after] = contact;
             contacts.push_back(contact, {0, 0, 0}, ContactFeature::nearest);
             gamma.push_back(force(generator));
             const double apart = distance == ContactDistance::touching ? 0.0 : gap;
@@ -67,14 +75,14 @@ TEST_CASE("sum over contacts of the pair stress = sum of virials + sum over rods
             torque[i] -= cross(point_i, gamma.back() * normal);
             torque[j] += cross(point_j, gamma.back() * normal);
         }
-        const Mat3 over_rods = sum_of_pair_stresses(contacts, gamma, rods, torque, distance);
+        const Mat3 over_rods = sum_of_pair_stresses(contacts, gamma, rods, {rows, torque}, distance);
         const Mat3 virial = centre_of_mass_virial(contacts, gamma, rods, distance);
         CHECK(norm(over_rods - over_contacts) < 1e-12 * norm(over_contacts));
         CHECK(relative_asymmetry(over_rods) < 1e-12);
         CHECK(trace(over_rods) == doctest::Approx(trace(virial)).epsilon(1e-12));
         CHECK(relative_asymmetry(virial) > 1e-3);  // the bare virial would not have done
         gamma.pop_back();
-        CHECK_THROWS_AS(sum_of_pair_stresses(contacts, gamma, rods, torque), InputError);
+        CHECK_THROWS_AS(sum_of_pair_stresses(contacts, gamma, rods, RodTorques{rows, torque}), InputError);
     }
 }
 
@@ -105,19 +113,20 @@ TEST_CASE("the sum over rods has the same bits for any number of threads") {
     MESSAGE("seed 12");
     const Rods rods = random_rods(generator, 3000);
     std::vector<Vec3> torque(rods.size());
+    const std::vector<std::uint32_t> rows = all_rows(rods);
     for (Vec3& value : torque) value = random_vector(generator);
     parallel::set_thread_count(1);
-    const Mat3 one = geometric_stress(rods, torque);
+    const Mat3 one = geometric_stress(rods, {rows, torque});
     for (const int threads : {2, 3, 4}) {
         parallel::set_thread_count(threads);
-        CHECK(geometric_stress(rods, torque).m == one.m);
+        CHECK(geometric_stress(rods, {rows, torque}).m == one.m);
     }
     Mat3 plain;
     for (std::size_t i = 0; i < rods.size(); ++i)
         plain += geometric_stress_of_rod(rods.axis[i], rods.length[i], rods.diameter[i], torque[i]);
     CHECK(norm(plain - one) < 1e-12 * norm(one));
     torque.pop_back();
-    CHECK_THROWS_AS(geometric_stress(rods, torque), InputError);
+    CHECK_THROWS_AS(geometric_stress(rods, {rows, torque}), InputError);
 }
 
 TEST_CASE("eq. (1.2): n kT I + sum/V, pressure, Z") {

@@ -1,0 +1,251 @@
+#include "jostle/contact/collision_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ranges>
+
+#include "jostle/math/vectorised.hpp"
+#include "jostle/parallel/parallel_for.hpp"
+
+namespace jostle {
+
+namespace {
+
+/// What float rounding may do to the quick bounds, in units of the rods' size. The bound of a plane is right for any
+/// normal, so rounding of the nearest points does not matter to it; to the gap it does, for nearly parallel rods.
+constexpr float bound_error = 1e-5F, gap_error = 2e-3F;
+
+/// Pairs side by side, for vector instructions.
+struct Batch {
+    static constexpr std::size_t size = NeighbourList::block_size;
+    using Row = std::array<float, size>;
+    std::array<Row, 3> between, moved, axis_i, axis_j, axis_i_after, axis_j_after;
+    Row half_i, half_j, radii;
+    Row gap;          ///< before the step
+    Row bound_after;  ///< lower bound of the gap after the known motion: the width of a slab with `normal`
+    std::array<Row, 3> normal;
+};
+
+inline float clamped(float value, float limit) {
+    const float above = value > -limit ? value : -limit;
+    return above < limit ? above : limit;
+}
+
+/// The gaps of segments as in segment_distance.hpp, and the width of the empty slab between the moved rods whose faces
+/// are normal to the line between the nearest points.
+JOSTLE_VECTORISED void glance_at(std::size_t count, Batch& batch) {
+    const auto& [x, y, z] = batch.between;
+    const auto& [mx, my, mz] = batch.moved;
+    const auto& [ux, uy, uz] = batch.axis_i;
+    const auto& [vx, vy, vz] = batch.axis_j;
+    const auto& [px, py, pz] = batch.axis_i_after;
+    const auto& [qx, qy, qz] = batch.axis_j_after;
+    auto& [normal_x, normal_y, normal_z] = batch.normal;
+    for (std::size_t k = 0; k < count; ++k) {
+        const float d_i = x[k] * ux[k] + y[k] * uy[k] + z[k] * uz[k], d_j = x[k] * vx[k] + y[k] * vy[k] + z[k] * vz[k];
+        const float cosine = ux[k] * vx[k] + uy[k] * vy[k] + uz[k] * vz[k];
+        const float wx = ux[k] - cosine * vx[k], wy = uy[k] - cosine * vy[k], wz = uz[k] - cosine * vz[k];
+        const float along = (x[k] - d_j * vx[k]) * wx + (y[k] - d_j * vy[k]) * wy + (z[k] - d_j * vz[k]) * wz;
+        const float s_start = clamped(along / (wx * wx + wy * wy + wz * wz + 1e-20F), batch.half_i[k]);
+        const float s_j = clamped(s_start * cosine - d_j, batch.half_j[k]);
+        const float s_i = clamped(s_j * cosine + d_i, batch.half_i[k]);
+        const float ex = x[k] + s_j * vx[k] - s_i * ux[k], ey = y[k] + s_j * vy[k] - s_i * uy[k],
+                    ez = z[k] + s_j * vz[k] - s_i * uz[k];
+        const float distance = std::sqrt(ex * ex + ey * ey + ez * ez) + 1e-20F;
+        const float nx = ex / distance, ny = ey / distance, nz = ez / distance;
+        normal_x[k] = nx;
+        normal_y[k] = ny;
+        normal_z[k] = nz;
+        batch.gap[k] = distance - batch.radii[k];
+        batch.bound_after[k] = (x[k] + mx[k]) * nx + (y[k] + my[k]) * ny + (z[k] + mz[k]) * nz -
+                               batch.half_i[k] * std::fabs(px[k] * nx + py[k] * ny + pz[k] * nz) -
+                               batch.half_j[k] * std::fabs(qx[k] * nx + qy[k] * ny + qz[k] * nz) - batch.radii[k];
+    }
+}
+
+std::array<float, 3> single(const Vec3& a) {
+    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
+}
+
+}  // namespace
+
+double CollisionSearch::find(const Rods& rods, const Box& box, const RodMotion& motion, Contacts& contacts) {
+    reach_.resize(rods.size());
+    glance_.resize(rods.size());
+    parallel_for(rods.size(), [&](std::size_t i) {
+        reach_[i] = std::max(motion.displacement[i] + motion.touching[i] + push_allowance_, 0.5 * range_);
+        glance_[i] = {rods.centre[i],
+                      single(rods.axis[i]),
+                      single(motion.centre[i] - rods.centre[i]),
+                      single(motion.axis[i]),
+                      static_cast<float>(0.5 * rods.length[i]),
+                      static_cast<float>(0.5 * rods.diameter[i]),
+                      static_cast<float>(motion.touching[i]),
+                      rods.image[i]};
+    });
+    neighbours_.update(rods, box, reach_);
+    blocks_.resize(neighbours_.block_count());
+    parallel_for_parts(blocks_.size(), [&](std::size_t block) { search_block(block, rods, box, motion); });
+    contacts.clear();
+    contacts.append(blocks_.size(), [&](std::size_t block) -> const Contacts& { return blocks_[block].contacts; });
+    first_count_ = contacts.size();
+    added_.clear();
+    return parallel_max(blocks_.size(), 0.0, [&](std::size_t block) { return blocks_[block].overlap; });
+}
+
+void CollisionSearch::search_block(std::size_t block, const Rods& rods, const Box& box, const RodMotion& motion) {
+    Found& found = blocks_[block];
+    found.contacts.clear();
+    found.bystanders.clear();
+    found.overlap = 0.0;
+    std::array<PairName, Batch::size> names;
+    std::size_t count = 0;
+    Batch batch;
+    neighbours_.for_close_pairs(block, [&](std::size_t pair) {
+        const std::uint32_t i = neighbours_.i(pair), j = neighbours_.j(pair);
+        const RodGlance &a = glance_[i], &b = glance_[j];
+        const Image image = neighbours_.image_now(pair, a.image, b.image);
+        const auto between = single(b.centre + box.displacement(image) - a.centre);
+        names[count] = {i, j, image};
+        for (std::size_t k = 0; k < 3; ++k) {
+            batch.between[k][count] = between[k];
+            batch.moved[k][count] = b.moved[k] - a.moved[k];
+            batch.axis_i[k][count] = a.axis[k];
+            batch.axis_j[k][count] = b.axis[k];
+            batch.axis_i_after[k][count] = a.axis_after[k];
+            batch.axis_j_after[k][count] = b.axis_after[k];
+        }
+        batch.half_i[count] = a.half_length;
+        batch.half_j[count] = b.half_length;
+        batch.radii[count] = a.radius + b.radius;
+        ++count;
+    });
+    glance_at(count, batch);
+    for (std::size_t k = 0; k < count; ++k) {
+        const float size = batch.half_i[k] + batch.half_j[k] + batch.radii[k];
+        const float touching = glance_[names[k].i].touching + glance_[names[k].j].touching;
+        const float slack = batch.bound_after[k] - bound_error * size - touching;
+        const bool clear = batch.gap[k] - gap_error * batch.radii[k] > static_cast<float>(range_);
+        if (clear && slack >= static_cast<float>(margin_))
+            found.bystanders.push_back({names[k], slack, {batch.normal[0][k], batch.normal[1][k], batch.normal[2][k]}});
+        else
+            look_closely(names[k], rods, box, motion, found);
+    }
+}
+
+void CollisionSearch::look_closely(const PairName& name, const Rods& rods, const Box& box, const RodMotion& motion,
+                                   Found& found) const {
+    const auto& [i, j, image] = name;
+    const Vec3 displacement = box.displacement(image);
+    const PairGeometry before = pair_geometry(rods, i, j, displacement, rods.centre, rods.axis);
+    const NearestPoints nearest = nearest_points(before);
+    const double distance = norm(nearest.separation), gap = distance - before.radii;
+    found.overlap = std::max(found.overlap, -gap);
+
+    const PairGeometry after = pair_geometry(rods, i, j, displacement, motion.centre, motion.axis);
+    const NearestPoints nearest_after = nearest_points(after);
+    const double distance_after = norm(nearest_after.separation);
+    const double slack = distance_after - after.radii - motion.touching[i] - motion.touching[j];
+    const bool passed_through = dot(nearest.separation, nearest_after.separation) <= 0.0;
+    if (gap >= range_ && slack >= margin_ && !passed_through) {
+        const double rounding = 1e-6 * after.radii;
+        found.bystanders.push_back(
+            {name, static_cast<float>(slack - rounding), single(nearest_after.separation / distance_after)});
+        return;
+    }
+    append(name, before, nearest, distance, after, found.contacts);
+}
+
+/// Appends the contacts of a pair, with their gaps after the known motion.
+void CollisionSearch::append(const PairName& name, const PairGeometry& before, const NearestPoints& nearest,
+                             double distance, const PairGeometry& after, Contacts& contacts) const {
+    const std::size_t first = contacts.size();
+    append_contacts(name, before, nearest, distance, reach_[name.i] + reach_[name.j], contacts);
+    for (std::size_t l = first; l < contacts.size(); ++l)
+        contacts.contact[l].gap_after = gap_of_contact(contacts.contact[l], contacts.feature[l], after);
+}
+
+bool CollisionSearch::is_contact(const PairName& name, const Contacts& contacts) const {
+    const auto before = [&](std::uint32_t l, const PairName& wanted) {
+        return PairName{contacts.contact[l].i, contacts.contact[l].j, contacts.image[l]} < wanted;
+    };
+    const auto all = std::views::iota(std::uint32_t{0}, static_cast<std::uint32_t>(first_count_));
+    const auto place = std::lower_bound(all.begin(), all.end(), name, before);
+    if (place != all.end() && contacts.contact[*place].i == name.i && contacts.contact[*place].j == name.j &&
+        contacts.image[*place] == name.image)
+        return true;
+    return std::binary_search(added_.begin(), added_.end(), name);
+}
+
+/// Whether pushes could use up the slack of a bystander: by their size, and if so, along the normal of its slab.
+bool CollisionSearch::may_meet(const Bystander& bystander, const Push& i, const Push& j) {
+    const auto& [name, slack, normal] = bystander;
+    if (slack >= i.farthest + j.farthest) return false;
+    const auto along = [&normal](const std::array<float, 3>& a) {
+        return normal[0] * a[0] + normal[1] * a[1] + normal[2] * a[2];
+    };
+    const float width = slack + along(j.centre) - along(i.centre) - std::fabs(along(i.end)) - std::fabs(along(j.end));
+    return width < i.inaccuracy + j.inaccuracy;
+}
+
+std::vector<PairName> CollisionSearch::missed_pairs(const Rods& rods, const Box& box, const RodMotion& motion,
+                                                    const Contacts& contacts, std::span<const Push> pushes,
+                                                    const RodAfter& after, bool thorough) {
+    const auto missed = [&](const PairName& name) {
+        const auto [centre_i, axis_i] = after(name.i);
+        const auto [centre_j, axis_j] = after(name.j);
+        const PairGeometry pair = {centre_j + box.displacement(name.image) - centre_i,
+                                   axis_i,
+                                   axis_j,
+                                   0.5 * rods.length[name.i],
+                                   0.5 * rods.length[name.j],
+                                   0.5 * (rods.diameter[name.i] + rods.diameter[name.j])};
+        return pair_gap(pair) < motion.touching[name.i] + motion.touching[name.j] && !is_contact(name, contacts);
+    };
+    std::vector<std::vector<PairName>> found(blocks_.size());
+    parallel_for_parts(blocks_.size(), [&](std::size_t block) {
+        for (const Bystander& bystander : blocks_[block].bystanders) {
+            const auto& name = bystander.name;
+            if (may_meet(bystander, pushes[name.i], pushes[name.j]) && missed(name)) found[block].push_back(name);
+        }
+    });
+    if (thorough &&
+        parallel_max(pushes.size(), 0.0, [&](std::size_t i) { return pushes[i].farthest; }) > push_allowance_) {
+        // Some rods go farther than was allowed for: pairs that were passed over then.
+        std::vector<double> needed(rods.size());
+        parallel_for(rods.size(), [&](std::size_t i) {
+            needed[i] = reach_[i] + std::max(pushes[i].farthest - push_allowance_, 0.0);
+        });
+        neighbours_.widen(rods, box, needed);
+        found.resize(std::max(found.size(), neighbours_.block_count()));
+        parallel_for_parts(neighbours_.block_count(), [&](std::size_t block) {
+            neighbours_.for_close_pairs(block, [&](std::size_t pair) {
+                if (neighbours_.was_close(pair)) return;
+                const std::uint32_t i = neighbours_.i(pair), j = neighbours_.j(pair);
+                const PairName name{i, j, neighbours_.image_now(pair, rods.image[i], rods.image[j])};
+                if (missed(name)) found[block].push_back(name);
+            });
+        });
+    }
+    std::vector<PairName> all;
+    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+}
+
+void CollisionSearch::add(std::span<const PairName> missed, const Rods& rods, const Box& box, const RodMotion& motion,
+                          Contacts& contacts) {
+    for (const PairName& name : missed) {
+        const auto& [i, j, image] = name;
+        const Vec3 displacement = box.displacement(image);
+        const PairGeometry before = pair_geometry(rods, i, j, displacement, rods.centre, rods.axis);
+        const PairGeometry after = pair_geometry(rods, i, j, displacement, motion.centre, motion.axis);
+        const NearestPoints nearest = nearest_points(before);
+        append(name, before, nearest, norm(nearest.separation), after, contacts);
+        added_.push_back(name);
+    }
+    std::sort(added_.begin(), added_.end());
+}
+
+}  // namespace jostle

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "jostle/contact/contacts.hpp"
+#include "jostle/contact/neighbour_list.hpp"
+#include "jostle/contact/pair_contacts.hpp"
+
+namespace jostle {
+
+/// How rods move in a step.
+struct RodMotion {
+    std::span<const Vec3> centre, axis;    ///< (N) after it; centres are not wrapped
+    std::span<const double> displacement;  ///< (N) by the known motion, of any point of the rod, at most
+    std::span<const double> touching;      ///< (N) each rod's part in the largest gap that still counts as touching
+};
+
+/// How contact forces push a rod in a step: the displacement of its centre, and of its ends to both sides of that; and
+/// an upper bound for that of any point.
+struct Push {
+    std::array<float, 3> centre{}, end{};
+    float farthest = 0.0F;
+    float inaccuracy = 0.0F;  ///< of centre and end together, at most
+};
+
+/// Where a rod lies at the end of a step: its centre (not wrapped) and axis.
+using RodAfter = std::function<std::pair<Vec3, Vec3>(std::uint32_t row)>;
+
+/// Finds the pairs that collide in a step: most neighbours do not, and are kept out of the contact problem.
+///
+///     pairs of the neighbour list
+///       passed over: cannot come close by what they were when the list was built
+///       bystanders:  a plane between the two rods shows that their gap after the known motion is above touching +
+///                    margin (in float, many pairs at once), or the gap itself does (in double)
+///       contacts:    all others, and those with a gap below `range` now
+///
+/// Once contact forces are known, `missed_pairs` looks at the bystanders, and at all neighbours of rods that forces
+/// push beyond the allowance, and names those that would collide after all. The result depends on the rods alone, not
+/// on the history of the list.
+class CollisionSearch {
+public:
+    /// `travel`: of the neighbour list; `margin`, `push_allowance`: lengths; `range`: contacts with a smaller gap are
+    /// always taken (0: none).
+    CollisionSearch(double travel, double margin, double push_allowance, double range)
+        : neighbours_(travel), margin_(margin), push_allowance_(push_allowance), range_(range) {}
+
+    /// The contacts of the step. Returns the largest overlap before the known motion, max(0, -gap).
+    double find(const Rods& rods, const Box& box, const RodMotion& motion, Contacts& contacts);
+
+    /// The pairs that are none of `contacts` but touch in the end, in order. `pushes`: (N). `thorough`: otherwise only
+    /// bystanders are looked at.
+    std::vector<PairName> missed_pairs(const Rods& rods, const Box& box, const RodMotion& motion,
+                                       const Contacts& contacts, std::span<const Push> pushes, const RodAfter& after,
+                                       bool thorough);
+
+    /// Appends the contacts of missed pairs.
+    void add(std::span<const PairName> missed, const Rods& rods, const Box& box, const RodMotion& motion,
+             Contacts& contacts);
+
+    /// Forgets the neighbour list (rods were added, removed or renumbered).
+    void invalidate() { neighbours_.invalidate(); }
+
+private:
+    /// What the quick look at a pair needs of a rod, together.
+    struct RodGlance {
+        Vec3 centre;
+        std::array<float, 3> axis, moved, axis_after;
+        float half_length, radius, touching;
+        Image image;
+    };
+    struct Bystander {
+        PairName name;
+        float slack;                  ///< how much wider than touching the gap is after the known motion, at least
+        std::array<float, 3> normal;  ///< of a slab of that width between the rods
+    };
+    struct Found {  ///< in one block of the neighbour list
+        Contacts contacts;
+        std::vector<Bystander> bystanders;
+        double overlap = 0.0;
+    };
+
+    void look_closely(const PairName& name, const Rods& rods, const Box& box, const RodMotion& motion,
+                      Found& found) const;
+    void append(const PairName& name, const PairGeometry& before, const NearestPoints& nearest, double distance,
+                const PairGeometry& after, Contacts& contacts) const;
+    void search_block(std::size_t block, const Rods& rods, const Box& box, const RodMotion& motion);
+    static bool may_meet(const Bystander& bystander, const Push& i, const Push& j);
+    bool is_contact(const PairName& name, const Contacts& contacts) const;
+
+    NeighbourList neighbours_;
+    double margin_, push_allowance_, range_;
+    std::vector<double> reach_;      ///< (N) displacement + touching + push allowance
+    std::vector<RodGlance> glance_;  ///< (N)
+    std::vector<Found> blocks_;
+    std::size_t first_count_ = 0;  ///< contacts before any were added
+    std::vector<PairName> added_;  ///< missed pairs of this step, ascending
+};
+
+}  // namespace jostle

@@ -1,0 +1,106 @@
+#include "jostle/contact/pair_contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jostle {
+
+namespace {
+
+constexpr double largest_sine_with_ends = 0.15;
+/// The nearest point is left out between two ends if these are no farther apart than this (in D) beyond its distance.
+constexpr double negligible_sag = 5e-4;
+/// Ends nearer than this (in D) to a point that is already a contact add nothing but a nearly dependent row.
+constexpr double least_spacing = 0.1;
+
+/// One possible contact point of a pair.
+struct Point {
+    double s_i, s_j, distance;
+    Vec3 separation;
+    ContactFeature feature;
+};
+
+/// The direction along which to push apart, also where the axes cross or coincide and the separation says nothing.
+Vec3 contact_normal(const Vec3& separation, double distance, const PairGeometry& pair) {
+    if (distance > 1e-9 * pair.radii) return separation / distance;
+    const Vec3 across = cross(pair.axis_i, pair.axis_j);
+    const double sine = norm(across);
+    return sine > 1e-9 ? across / sine : any_perpendicular(pair.axis_i);
+}
+
+/// Adds the ends of the stretch along which the rods lie side by side: at most one to each side of the nearest points.
+struct EndPoints {
+    Point lower, upper;  ///< below and above the nearest point along axis i
+    bool has_lower = false, has_upper = false;
+
+    void offer(const Point& point, double s_nearest, double spacing) {
+        const double ahead = point.s_i - s_nearest;
+        if (std::fabs(ahead) < spacing) return;
+        bool& present = ahead < 0.0 ? has_lower : has_upper;
+        Point& kept = ahead < 0.0 ? lower : upper;
+        if (!present || point.distance < kept.distance) kept = point;
+        present = true;
+    }
+};
+
+EndPoints end_points(const PairGeometry& pair, const Point& nearest, double range) {
+    EndPoints ends;
+    const double spacing = least_spacing * pair.radii;
+    for (const double end : {-pair.half_j, pair.half_j}) {
+        const auto foot = nearest_point(pair.between + end * pair.axis_j, pair.axis_i, pair.half_i);
+        const double distance = norm(foot.separation);
+        if (std::fabs(foot.s) < pair.half_i && distance < range)
+            ends.offer({foot.s, end, distance, foot.separation, ContactFeature::end_of_j}, nearest.s_i, spacing);
+    }
+    for (const double end : {-pair.half_i, pair.half_i}) {
+        const auto foot = nearest_point(end * pair.axis_i - pair.between, pair.axis_j, pair.half_j);
+        const double distance = norm(foot.separation);
+        if (std::fabs(foot.s) < pair.half_j && distance < range)
+            ends.offer({end, foot.s, distance, -foot.separation, ContactFeature::end_of_i}, nearest.s_i, spacing);
+    }
+    return ends;
+}
+
+}  // namespace
+
+void append_contacts(const PairName& name, const PairGeometry& pair, const NearestPoints& points, double distance,
+                     double range, Contacts& contacts) {
+    const Point nearest{points.s_i, points.s_j, distance, points.separation, ContactFeature::nearest};
+    const auto add = [&](const Point& point) {
+        const Vec3 normal = contact_normal(point.separation, point.distance, pair);
+        const double gap = point.distance - pair.radii;
+        contacts.push_back({name.i, name.j, normal, point.s_i, point.s_j, gap, gap}, name.image, point.feature);
+    };
+    const double squared_sine = squared_norm(cross(pair.axis_i, pair.axis_j));
+    if (pair.half_i == 0.0 || pair.half_j == 0.0 || squared_sine > largest_sine_with_ends * largest_sine_with_ends) {
+        add(nearest);
+        return;
+    }
+    const EndPoints ends = end_points(pair, nearest, pair.radii + range);
+    const bool drop_middle =
+        ends.has_lower && ends.has_upper &&
+        std::max(ends.lower.distance, ends.upper.distance) - nearest.distance < negligible_sag * pair.radii;
+    if (!drop_middle) add(nearest);
+    if (ends.has_lower) add(ends.lower);
+    if (ends.has_upper) add(ends.upper);
+}
+
+double gap_of_contact(const Contact& contact, ContactFeature feature, const PairGeometry& pair) {
+    Vec3 separation;
+    switch (feature) {
+        case ContactFeature::nearest:
+            separation = nearest_points(pair).separation;
+            break;
+        case ContactFeature::end_of_i:
+            separation =
+                -nearest_point(contact.arm_i * pair.axis_i - pair.between, pair.axis_j, pair.half_j).separation;
+            break;
+        case ContactFeature::end_of_j:
+            separation = nearest_point(pair.between + contact.arm_j * pair.axis_j, pair.axis_i, pair.half_i).separation;
+            break;
+    }
+    const double distance = dot(separation, contact.normal) < 0.0 ? -norm(separation) : norm(separation);
+    return distance - pair.radii;
+}
+
+}  // namespace jostle

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <span>
+
+#include "jostle/contact/contacts.hpp"
+#include "jostle/contact/segment_distance.hpp"
+#include "jostle/rods/box.hpp"
+
+namespace jostle {
+
+/// Two rods as the search for contacts sees them.
+struct PairGeometry {
+    Vec3 between;  ///< from centre i to centre j, image included
+    Vec3 axis_i, axis_j;
+    double half_i, half_j;  ///< half lengths
+    double radii;           ///< (D_i + D_j)/2
+};
+
+/// Rods i and j, the latter displaced, when they lie at `centre` and `axis`.
+inline PairGeometry pair_geometry(const Rods& rods, std::size_t i, std::size_t j, const Vec3& displacement,
+                                  std::span<const Vec3> centre, std::span<const Vec3> axis) {
+    return {centre[j] + displacement - centre[i],       axis[i], axis[j], 0.5 * rods.length[i], 0.5 * rods.length[j],
+            0.5 * (rods.diameter[i] + rods.diameter[j])};
+}
+
+/// The nearest points of a pair's segments.
+inline NearestPoints nearest_points(const PairGeometry& pair) {
+    return nearest_points(pair.between, pair.axis_i, pair.half_i, pair.axis_j, pair.half_j);
+}
+
+/// Distance of the two surfaces.
+inline double pair_gap(const PairGeometry& pair) {
+    return norm(nearest_points(pair).separation) - pair.radii;
+}
+
+/// Which rods meet, and in which image of j.
+struct PairName {
+    std::uint32_t i, j;
+    Image image;
+
+    auto operator<=>(const PairName&) const = default;
+};
+
+/// Appends the contacts of a pair: its nearest points, and for nearly parallel rods the ends of the stretch along which
+/// they lie side by side, where they are nearer than `range` beyond touching
+/// (docs/decisions/0003-two-point-contacts.md):
+///
+///          o------------------o            sin(angle) < 0.15: ends within range are added
+///     ============================ i       if both ends are as far away as the nearest points, to 5e-4 D,
+///     =====================o======         they replace them (three contacts of two straight rods would
+///          o  nearest      o               make A singular)
+///
+/// `nearest`: of `pair`; `distance`: between those points.
+void append_contacts(const PairName& name, const PairGeometry& pair, const NearestPoints& nearest, double distance,
+                     double range, Contacts& contacts);
+
+/// The gap at a contact when its rods lie as in `pair`: its points follow their feature, and rods that have passed
+/// through each other count as overlapping.
+double gap_of_contact(const Contact& contact, ContactFeature feature, const PairGeometry& pair);
+
+}  // namespace jostle
