@@ -29,6 +29,7 @@ Scene scene_of(const Crowd& crowd) {
     scene.rods.axis = {0, 0, 1};
     scene.time.rms_step = rms_step;
     scene.time.production = 1.0;
+    scene.contact.brownian_correction = !crowd.crammed;
     if (crowd.self_propulsion > 0.0) {
         Rods one;
         one.push_back(0, {}, {1, 0, 0}, crowd.length, 1.0);
@@ -37,8 +38,16 @@ Scene scene_of(const Crowd& crowd) {
     return scene;
 }
 
-Simulation simulation_of(const Scene& scene, Assembly assembly) {
-    return assemble(scene, assembly.box, std::move(assembly.rods), {});
+Scene solved_by(const Crowd& crowd, SolverMethod method, double tolerance) {
+    Scene scene = scene_of(crowd);
+    scene.solver.method = method;
+    scene.solver.tolerance = tolerance;
+    scene.solver.max_iterations = 20000;
+    return scene;
+}
+
+Simulation simulation_of(const Scene& scene, Assembly assembly, Clock clock) {
+    return assemble(scene, assembly.box, std::move(assembly.rods), clock);
 }
 
 const Assembly& settled_assembly(const Crowd& crowd) {
@@ -49,10 +58,12 @@ const Assembly& settled_assembly(const Crowd& crowd) {
     const double edge =
         std::cbrt(static_cast<double>(settled_count) * rod_volume(crowd.length, 1.0) / crowd.volume_fraction);
     const Box box{{edge, edge, edge}};
-    Simulation simulation = simulation_of(scene, {box, make_start(scene, box)});
+    Simulation simulation = simulation_of(scene, {box, make_start(scene, box)}, {});
     for (int k = 0; k < crowd.settling_steps; ++k) {
-        if (simulation.step().status == LcpStatus::converged) continue;
-        fmt::print(stderr, "{}: settling step {} was not solved\n", crowd.name, k);
+        const StepReport report = simulation.step();
+        if (report.status == LcpStatus::converged) continue;
+        fmt::print(stderr, "{}: settling step {} was not solved: residual {:.2g} after {} iterations, overlap {:.2g}\n",
+                   crowd.name, k, report.residual, report.iterations, report.max_overlap);
         std::exit(1);
     }
     return assemblies[crowd.name] = {box, simulation.rods()};
@@ -89,10 +100,10 @@ const std::vector<Crowd>& all_crowds() {
     static const std::vector<Crowd> crowds = {
         {"rods/0.05", 5.0, 0.05, random, 0.0, 1000},     {"rods/0.10", 5.0, 0.10, random, 0.0, 1000},
         {"rods/0.20", 5.0, 0.20, random, 0.0, 1000},     {"rods/0.30", 5.0, 0.30, random, 0.0, 1000},
-        {"rods/0.40", 5.0, 0.40, random, 0.0, 1000},     {"rods/nematic", 5.0, 0.55, lattice, 0.0, 1000},
+        {"rods/0.40", 5.0, 0.40, random, 0.0, 1000},     {"rods/nematic", 5.0, 0.55, lattice, 0.0, 1000, true},
         {"rods/active", 5.0, 0.30, random, 300.0, 3000}, {"spheres/0.05", 0.0, 0.05, random, 0.0, 1000},
         {"spheres/0.20", 0.0, 0.20, random, 0.0, 1000},  {"spheres/0.40", 0.0, 0.40, random, 0.0, 1000},
-        {"spheres/0.60", 0.0, 0.60, random, 0.0, 500},   {"spheres/0.63", 0.0, 0.63, random, 0.0, 200},
+        {"spheres/0.60", 0.0, 0.60, random, 0.0, 200, true},   {"spheres/0.63", 0.0, 0.63, random, 0.0, 100, true},
     };
     return crowds;
 }
@@ -104,9 +115,13 @@ const Crowd& crowd_named(const std::string& name) {
 }
 
 std::unique_ptr<Simulation> settled(const Crowd& crowd, std::uint64_t count, SolverMethod method, double tolerance) {
-    Scene scene = scene_of(crowd);
-    scene.solver.method = method;
-    scene.solver.tolerance = tolerance;
     const std::uint64_t times = (count + settled_count - 1) / settled_count;
-    return std::make_unique<Simulation>(simulation_of(scene, copied(settled_assembly(crowd), times)));
+    return std::make_unique<Simulation>(
+        simulation_of(solved_by(crowd, method, tolerance), copied(settled_assembly(crowd), times), {}));
+}
+
+std::unique_ptr<Simulation> continued(const Crowd& crowd, const Simulation& from, SolverMethod method,
+                                      double tolerance) {
+    return std::make_unique<Simulation>(
+        simulation_of(solved_by(crowd, method, tolerance), {from.box(), from.rods()}, from.clock()));
 }

@@ -15,6 +15,7 @@ struct Crowd {
     jostle::StartKind start = jostle::StartKind::random;
     double self_propulsion = 0.0;  ///< U_0 D/(kT mobility along the axis): a Peclet number; 0 for passive bodies
     int settling_steps = 1000;
+    bool crammed = false;  ///< no room for the time-step correction, which makes bodies thicker: without it
 };
 
 inline constexpr std::uint64_t settled_count = 2000;  ///< bodies that are brought to rest; larger crowds are copies
@@ -32,3 +33,7 @@ const Crowd& crowd_named(const std::string& name);
 std::unique_ptr<jostle::Simulation> settled(const Crowd& crowd, std::uint64_t count = settled_count,
                                             jostle::SolverMethod method = jostle::SolverMethod::automatic,
                                             double tolerance = 1e-5);
+
+/// A simulation of the crowd that goes on from where another stands.
+std::unique_ptr<jostle::Simulation> continued(const Crowd& crowd, const jostle::Simulation& from,
+                                              jostle::SolverMethod method, double tolerance);

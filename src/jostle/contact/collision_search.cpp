@@ -189,8 +189,9 @@ bool CollisionSearch::may_meet(const Bystander& bystander, const Push& i, const 
 }
 
 std::vector<PairName> CollisionSearch::missed_pairs(const Rods& rods, const Box& box, const RodMotion& motion,
-                                                    const Contacts& contacts, std::span<const Push> pushes,
-                                                    const RodAfter& after, bool thorough) {
+                                                    const Contacts& contacts, std::span<const std::uint32_t> pushed,
+                                                    std::span<const Push> pushes, const RodAfter& after,
+                                                    bool thorough) {
     const auto missed = [&](const PairName& name) {
         const auto [centre_i, axis_i] = after(name.i);
         const auto [centre_j, axis_j] = after(name.j);
@@ -209,14 +210,14 @@ std::vector<PairName> CollisionSearch::missed_pairs(const Rods& rods, const Box&
             if (may_meet(bystander, pushes[name.i], pushes[name.j]) && missed(name)) found[block].push_back(name);
         }
     });
-    if (thorough &&
-        parallel_max(pushes.size(), 0.0, [&](std::size_t i) { return pushes[i].farthest; }) > push_allowance_) {
-        // Some rods go farther than was allowed for: pairs that were passed over then.
-        std::vector<double> needed(rods.size());
-        parallel_for(rods.size(), [&](std::size_t i) {
-            needed[i] = reach_[i] + std::max(pushes[i].farthest - push_allowance_, 0.0);
-        });
-        neighbours_.widen(rods, box, needed);
+    // Pairs that were passed over because no push was thought to go so far.
+    std::vector<NeighbourList::Overreach> farther;
+    if (thorough) {
+        for (const std::uint32_t row : pushed)
+            if (pushes[row].farthest > push_allowance_) farther.push_back({row, pushes[row].farthest - push_allowance_});
+    }
+    if (!farther.empty()) {
+        neighbours_.widen(rods, box, reach_, farther);
         found.resize(std::max(found.size(), neighbours_.block_count()));
         parallel_for_parts(neighbours_.block_count(), [&](std::size_t block) {
             neighbours_.for_close_pairs(block, [&](std::size_t pair) {

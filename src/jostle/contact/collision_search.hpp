@@ -51,11 +51,11 @@ public:
     /// The contacts of the step. Returns the largest overlap before the known motion, max(0, -gap).
     double find(const Rods& rods, const Box& box, const RodMotion& motion, Contacts& contacts);
 
-    /// The pairs that are none of `contacts` but touch in the end, in order. `pushes`: (N). `thorough`: otherwise only
-    /// bystanders are looked at.
+    /// The pairs that are none of `contacts` but touch in the end, in order. `pushed`: rows of the rods with a push;
+    /// `pushes`: (N). `thorough`: otherwise only bystanders are looked at.
     std::vector<PairName> missed_pairs(const Rods& rods, const Box& box, const RodMotion& motion,
-                                       const Contacts& contacts, std::span<const Push> pushes, const RodAfter& after,
-                                       bool thorough);
+                                       const Contacts& contacts, std::span<const std::uint32_t> pushed,
+                                       std::span<const Push> pushes, const RodAfter& after, bool thorough);
 
     /// Appends the contacts of missed pairs.
     void add(std::span<const PairName> missed, const Rods& rods, const Box& box, const RodMotion& motion,

@@ -163,10 +163,21 @@ JOSTLE_VECTORISED void extents_less_gaps(std::size_t count, const std::uint32_t*
 
 }  // namespace
 
-void NeighbourList::widen(const Rods& rods, const Box& box, std::span<const double> reach) {
-    if (!widened_) extent_before_ = extent_;
-    widened_ = true;
-    if (refresh(rods, box, reach)) extent_before_.clear();
+void NeighbourList::widen(const Rods& rods, const Box& box, std::span<const double> reach,
+                          std::span<const Overreach> farther) {
+    if (extent_within_.empty())
+        extent_within_ = extent_;
+    else
+        extent_ = extent_within_;
+    bool reaches_too_far = built_while_widened_;
+    for (const auto& [row, beyond] : farther) {
+        set_extent(row, extent_[row] + beyond);
+        reaches_too_far = reaches_too_far || extent_[row] > 0.5 * skin_;
+    }
+    if (!reaches_too_far) return;
+    std::vector<double> needed(reach.begin(), reach.end());
+    for (const auto& [row, beyond] : farther) needed[row] += beyond;
+    built_while_widened_ = refresh(rods, box, needed) || built_while_widened_;
 }
 
 bool NeighbourList::refresh(const Rods& rods, const Box& box, std::span<const double> reach) {

@@ -25,12 +25,20 @@ public:
 
     /// Builds anew if need be; returns whether it did. `reach`: (N), lengths.
     bool update(const Rods& rods, const Box& box, std::span<const double> reach) {
-        widened_ = false;
+        extent_within_.clear();
+        built_while_widened_ = false;
         return refresh(rods, box, reach);
     }
 
-    /// The same, but remembers which pairs were close at the last call of `update`.
-    void widen(const Rods& rods, const Box& box, std::span<const double> reach);
+    /// Rods that come farther than their reach.
+    struct Overreach {
+        std::uint32_t row;
+        double beyond;  ///< a length
+    };
+
+    /// After an `update` with `reach`: lets some rods come farther, in place of earlier such ones. `was_close` then
+    /// tells which pairs were close without.
+    void widen(const Rods& rods, const Box& box, std::span<const double> reach, std::span<const Overreach> farther);
 
     /// Forces building at the next update (rods were added, removed or renumbered).
     void invalidate() { reference_.centre.clear(); }
@@ -65,7 +73,7 @@ public:
 
     /// Whether for_close_pairs named the pair before the list was widened; no for all if it had to be built anew.
     bool was_close(std::size_t pair) const {
-        return !extent_before_.empty() && extent_before_[i_[pair]] + extent_before_[j_[pair]] - gap_[pair] >= 0.0F;
+        return !built_while_widened_ && extent_within_[i_[pair]] + extent_within_[j_[pair]] - gap_[pair] >= 0.0F;
     }
 
 private:
@@ -87,8 +95,8 @@ private:
     std::vector<float> gap_;            ///< when the list was built, rounded down
     std::vector<PairImage> image_;      ///< when the list was built, plus image of i, less image of j
     std::vector<float> extent_;         ///< (N) d_i + reach_i at the last update, rounded up
-    std::vector<float> extent_before_;  ///< (N) before the list was widened; empty if it has been built since
-    bool widened_ = false;
+    std::vector<float> extent_within_;  ///< (N) before the list was widened, or none
+    bool built_while_widened_ = false;
 };
 
 }  // namespace jostle

@@ -47,11 +47,12 @@ void DragMobility::apply(const Rods& rods, const Forces& forces, Velocities& vel
     });
 }
 
-void DragMobility::add_square_root(const Rods& rods, std::span<const Normals> normals, double scale,
+void DragMobility::add_square_root(const Rods& rods, std::size_t first, std::span<const Normals> normals, double scale,
                                    Velocities& velocities) const {
-    assert(kind_.size() == rods.size() && normals.size() == rods.size() && velocities.size() == rods.size());
-    parallel_for(rods.size(), [&](std::size_t i) {
-        const Normals& xi = normals[i];
+    assert(kind_.size() == rods.size() && velocities.size() == rods.size() && first + normals.size() <= rods.size());
+    parallel_for(normals.size(), [&](std::size_t k) {
+        const std::size_t i = first + k;
+        const Normals& xi = normals[k];
         Vec3 linear, angular;
         apply_to_rod(kinds_[kind_[i]].root, rods.axis[i], {xi[0], xi[1], xi[2]}, {xi[3], xi[4], xi[5]}, linear,
                      angular);

@@ -22,7 +22,7 @@ public:
 
     void update(const Rods& rods) override;
     void apply(const Rods& rods, const Forces& forces, Velocities& velocities) const override;
-    void add_square_root(const Rods& rods, std::span<const Normals> normals, double scale,
+    void add_square_root(const Rods& rods, std::size_t first, std::span<const Normals> normals, double scale,
                          Velocities& velocities) const override;
     bool couples_rods() const override { return false; }
     RodMobility of_rod(std::size_t i) const override { return kinds_[kind_[i]].own; }

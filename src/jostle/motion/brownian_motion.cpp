@@ -1,5 +1,6 @@
 #include "jostle/motion/brownian_motion.hpp"
 
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <sstream>
@@ -9,6 +10,12 @@
 #include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
+
+namespace {
+
+constexpr std::size_t part = 256;  ///< rods whose numbers are drawn together
+
+}  // namespace
 
 BrownianMotion::BrownianMotion(double kT, const Mobility& mobility) : kT_(kT), mobility_(mobility) {
     if (std::isfinite(kT) && kT >= 0.0) return;
@@ -24,12 +31,19 @@ BrownianMotion::BrownianMotion(double kT, const Mobility& mobility) : kT_(kT), m
 
 void BrownianMotion::add_to(Velocities& known, const Rods& rods, const StepContext& context) const {
     assert(known.size() == rods.size() && context.time_step > 0.0);
-    normals_.resize(rods.size());
     const RandomKey key{context.seed, context.step, Stream::brownian, 0};
-    parallel_for_blocks(rods.size(), parallel::sum_block, [&](std::size_t, std::size_t begin, std::size_t end) {
-        fill_normals(key, {rods.id.data() + begin, end - begin}, {normals_.data() + begin, end - begin});
+    const double scale = std::sqrt(2.0 * kT_ / context.time_step);
+    if (mobility_.couples_rods()) {
+        std::vector<Normals> normals(rods.size());
+        fill_normals(key, rods.id, normals);
+        mobility_.add_square_root(rods, 0, normals, scale, known);
+        return;
+    }
+    parallel_for_blocks(rods.size(), part, [&](std::size_t, std::size_t begin, std::size_t end) {
+        std::array<Normals, part> normals;
+        fill_normals(key, {rods.id.data() + begin, end - begin}, {normals.data(), end - begin});
+        mobility_.add_square_root(rods, begin, {normals.data(), end - begin}, scale, known);
     });
-    mobility_.add_square_root(rods, normals_, std::sqrt(2.0 * kT_ / context.time_step), known);
 }
 
 }  // namespace jostle

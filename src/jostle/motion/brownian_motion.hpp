@@ -16,13 +16,11 @@ public:
     /// the rods.
     BrownianMotion(double kT, const Mobility& mobility);
 
-    /// Not to be called by two threads at once: the scratch array is kept between calls.
     void add_to(Velocities& known, const Rods& rods, const StepContext& context) const override;
 
 private:
     double kT_;
     const Mobility& mobility_;
-    mutable std::vector<Normals> normals_;  ///< (N) scratch
 };
 
 }  // namespace jostle

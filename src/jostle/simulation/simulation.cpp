@@ -56,7 +56,7 @@ void Simulation::take_over_rods() {
     displacement_.resize(rods_.size());
     moved_.centre.resize(rods_.size());
     moved_.axis.resize(rods_.size());
-    pushes_.resize(rods_.size());
+    pushes_.assign(rods_.size(), {});
     shift_.assign(rods_.size(), 0.0);
     if (!settings_.brownian_correction) return;
     parallel_for(rods_.size(), [&](std::size_t i) {

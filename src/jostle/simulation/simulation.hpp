@@ -80,7 +80,7 @@ private:
     struct {
         std::vector<Vec3> centre, axis;
     } moved_;                   ///< (N) the rods after the known motion
-    std::vector<Push> pushes_;  ///< (N) by contact forces
+    std::vector<Push> pushes_;  ///< (N) by contact forces; all 0 between steps
     Contacts contacts_;
     ContactSolution solution_;
 };

@@ -45,7 +45,10 @@ StepReport Simulation::step() {
     timer.finish(StepPhase::find_contacts);
     solve_contacts(report);
     timer.finish(StepPhase::solve_contacts);
-    if (report.status != LcpStatus::converged) return report;
+    if (report.status != LcpStatus::converged) {
+        pushes_.assign(rods_.size(), {});
+        return report;
+    }
     measure_stress(report);
     timer.finish(StepPhase::measure_stress);
     advance();
@@ -62,7 +65,6 @@ void Simulation::find_known_velocity() {
         moved_.axis[i] = rotated(rods_.axis[i], settings_.time_step * known_.angular[i]);
         displacement_[i] = farthest_displacement(moved_.centre[i] - rods_.centre[i], moved_.axis[i] - rods_.axis[i],
                                                  0.5 * rods_.length[i]);
-        pushes_[i] = {};
     });
 }
 
@@ -148,7 +150,7 @@ bool Simulation::add_missed_contacts(const ContactMatrix& contact_matrix, const 
         if (place == ContactMatrix::no_place) return {moved_.centre[row], moved_.axis[row]};
         return pushed(row, solution.velocities[place]);
     };
-    const auto missed = search_.missed_pairs(rods_, box_, motion(), contacts_, pushes_, after, final);
+    const auto missed = search_.missed_pairs(rods_, box_, motion(), contacts_, rows, pushes_, after, final);
     search_.add(missed, rods_, box_, motion(), contacts_);
     return !missed.empty();
 }
@@ -171,6 +173,7 @@ void Simulation::advance() {
     parallel_for(solution_.rods.size(), [&](std::size_t place) {
         const std::uint32_t row = solution_.rods[place];
         std::tie(moved_.centre[row], moved_.axis[row]) = pushed(row, solution_.velocities[place]);
+        pushes_[row] = {};
     });
     rods_.centre.swap(moved_.centre);
     rods_.axis.swap(moved_.axis);

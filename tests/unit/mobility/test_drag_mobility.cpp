@@ -41,8 +41,10 @@ Apply square_root_of(const DragMobility& mobility) {
         for (std::size_t i = 0; i < rods.size(); ++i)
             normals[i] = {xi.force[i].x, xi.force[i].y, xi.force[i].z, xi.torque[i].x, xi.torque[i].y, xi.torque[i].z};
         velocities = Velocities(rods.size());
-        mobility.add_square_root(rods, normals, 0.25, velocities);
-        mobility.add_square_root(rods, normals, 0.75, velocities);  // it adds
+        mobility.add_square_root(rods, 0, normals, 0.25, velocities);
+        const std::size_t half = rods.size() / 2;  // it adds, and takes parts
+        mobility.add_square_root(rods, 0, {normals.data(), half}, 0.75, velocities);
+        mobility.add_square_root(rods, half, {normals.data() + half, rods.size() - half}, 0.75, velocities);
     };
 }
 
