@@ -1,4 +1,5 @@
-// Every solver on the same contact problems, cold, to the same verified residual: applications of A (or sweeps) and time.
+// Every solver on the same contact problems, cold, to the same verified residual: applications of A (or sweeps) and
+// time.
 
 #include <fmt/format.h>
 
@@ -44,8 +45,9 @@ void measure(const Crowd& crowd, std::uint64_t count, double tolerance) {
         }
         if (method == SolverMethod::bbpgd) seconds_of_bbpgd = seconds;
         const auto bodies = static_cast<double>(leader->rods().size());
-        fmt::print("{},{},{:.0e},{},{:.1f},{:.1f},{:.2f},{:.2e},{}\n", crowd.name, leader->rods().size(), tolerance, name,
-                   iterations / steps, 1e9 * seconds / (steps * bodies), seconds_of_bbpgd / seconds, residual, failures);
+        fmt::print("{},{},{:.0e},{},{:.1f},{:.1f},{:.2f},{:.2e},{}\n", crowd.name, leader->rods().size(), tolerance,
+                   name, iterations / steps, 1e9 * seconds / (steps * bodies), seconds_of_bbpgd / seconds, residual,
+                   failures);
         std::fflush(stdout);
     }
 }

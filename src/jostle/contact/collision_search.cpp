@@ -214,7 +214,8 @@ std::vector<PairName> CollisionSearch::missed_pairs(const Rods& rods, const Box&
     std::vector<NeighbourList::Overreach> farther;
     if (thorough) {
         for (const std::uint32_t row : pushed)
-            if (pushes[row].farthest > push_allowance_) farther.push_back({row, pushes[row].farthest - push_allowance_});
+            if (pushes[row].farthest > push_allowance_)
+                farther.push_back({row, pushes[row].farthest - push_allowance_});
     }
     if (!farther.empty()) {
         neighbours_.widen(rods, box, reach_, farther);

@@ -67,8 +67,13 @@ public:
         const std::size_t begin = block * block_size, end = std::min(begin + block_size, size());
         std::array<float, block_size> closeness;
         find_closeness(begin, end, closeness.data());
-        for (std::size_t pair = begin; pair < end; ++pair)
-            if (closeness[pair - begin] >= 0.0F) found(pair);
+        std::array<std::uint32_t, block_size> close;  // without a jump: closeness is badly guessed
+        std::size_t count = 0;
+        for (std::size_t k = 0; k < end - begin; ++k) {
+            close[count] = static_cast<std::uint32_t>(k);
+            count += closeness[k] >= 0.0F ? 1 : 0;
+        }
+        for (std::size_t k = 0; k < count; ++k) found(begin + close[k]);
     }
 
     /// Whether for_close_pairs named the pair before the list was widened; no for all if it had to be built anew.

@@ -33,8 +33,8 @@ public:
     virtual void apply(const Rods& rods, const Forces& forces, Velocities& velocities) const = 0;
 
     /// velocities += scale B xi with B B^T = M, where `normals` holds the standard normal numbers xi, three for forces
-    /// and three for torques: Brownian velocities for scale = sqrt(2 kT/dt). They are those of the rods from row `first`
-    /// on, the others' being 0: a mobility that does not couple rods can so be given them part by part.
+    /// and three for torques: Brownian velocities for scale = sqrt(2 kT/dt). They are those of the rods from row
+    /// `first` on, the others' being 0: a mobility that does not couple rods can so be given them part by part.
     virtual void add_square_root(const Rods& rods, std::size_t first, std::span<const Normals> normals, double scale,
                                  Velocities& velocities) const = 0;
 

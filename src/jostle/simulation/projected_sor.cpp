@@ -22,44 +22,57 @@ double relaxation(std::uint64_t sweep) {
 
 /// All contacts pass through the first sweeps and then every `full_sweep_every`-th.
 constexpr std::uint64_t full_sweep_every = 5;
+/// Sweeps in float are right to about 1e-6 of the deepest overlap, and finer tolerances are left to double.
+constexpr double finest_in_float = 1e-5;
+/// Double takes over where so many verifications have found more residual than the sweeps in float had left to do.
+constexpr int patience_with_float = 3;
 /// After this sweep, missed contacts are looked for the first time.
-constexpr std::uint64_t early_search = 4;
+constexpr std::uint64_t early_search = 6;
 /// A contact without force takes part in the other sweeps if its gap would open by less than this many tolerances.
 constexpr double drowsy = 100.0;
 
 /// Centre and turning of a rod's velocity, or force and lever on it, side by side: as wide as a vector register.
-struct alignas(64) Wide {
-    std::array<double, 8> value{};  // 0-2 centre, 3-5 turning, the rest 0
+template <class Real>
+struct alignas(8 * sizeof(Real)) Wide {
+    std::array<Real, 8> value{};  // 0-2 centre, 3-5 turning, the rest 0
 
     Wide() = default;
-    Wide(const Vec3& a, const Vec3& b) : value{a.x, a.y, a.z, b.x, b.y, b.z} {}
+    Wide(const Vec3& a, const Vec3& b)
+        : value{static_cast<Real>(a.x), static_cast<Real>(a.y), static_cast<Real>(a.z),
+                static_cast<Real>(b.x), static_cast<Real>(b.y), static_cast<Real>(b.z)} {}
     Vec3 first() const { return {value[0], value[1], value[2]}; }
     Vec3 second() const { return {value[3], value[4], value[5]}; }
 
-    void add(double factor, const Wide& other) {
-        for (std::size_t k = 0; k < 8; ++k) value[k] += factor * other.value[k];
+    template <class Other>
+    void add(Other factor, const Wide<Other>& other) {
+        for (std::size_t k = 0; k < 8; ++k) value[k] += static_cast<Real>(factor * other.value[k]);
     }
 };
 
-double sum_of_products(const Wide& a, const Wide& b, const Wide& c, const Wide& d) {
-    std::array<double, 8> t;
-    for (std::size_t k = 0; k < 8; ++k) t[k] = a.value[k] * b.value[k] + c.value[k] * d.value[k];
+template <class Real, class Other>
+Real sum_of_products(const Wide<Real>& a, const Wide<Other>& b, const Wide<Real>& c, const Wide<Other>& d) {
+    std::array<Real, 8> t;
+    for (std::size_t k = 0; k < 8; ++k)
+        t[k] = a.value[k] * static_cast<Real>(b.value[k]) + c.value[k] * static_cast<Real>(d.value[k]);
     return ((t[0] + t[4]) + (t[2] + t[6])) + ((t[1] + t[5]) + (t[3] + t[7]));
 }
 
 /// One contact as a sweep needs it: its column of D, and of M D, for each of its two rods.
+template <class Real>
 struct Point {
-    Wide column_i, column_j, answer_i, answer_j;
-    double b = 0.0, gamma = 0.0;
-    std::uint32_t i = 0, j = 0;     ///< places
-    std::uint32_t contact = 0;      ///< number of the contact
-    double diagonal = 0.0;          ///< A_ll
-    double inverse_diagonal = 0.0;  ///< 0 where no force can open the gap
+    Wide<Real> column_i, column_j, answer_i, answer_j;
+    Real b = 0, gamma = 0;
+    Real diagonal = 0;           ///< A_ll
+    Real inverse_diagonal = 0;   ///< 0 where no force can open the gap
+    std::uint32_t i = 0, j = 0;  ///< places
+    std::uint32_t contact = 0;   ///< number of the contact
 
-    double gap_velocity(const Wide* velocities) const {
+    template <class Velocity>
+    Real gap_velocity(const Wide<Velocity>* velocities) const {
         return b + sum_of_products(column_i, velocities[i], column_j, velocities[j]);
     }
-    void push(double change, Wide* velocities) {
+    template <class Velocity>
+    void push(Real change, Wide<Velocity>* velocities) {
         gamma += change;
         velocities[i].add(change, answer_i);
         velocities[j].add(change, answer_j);
@@ -71,7 +84,7 @@ using Points = std::array<double, most_points>;  ///< a number per contact of a 
 /// A pair that touches at two or three points, and their part of A.
 struct PairContacts {
     std::uint32_t count;  ///< 2 or 3
-    std::array<Point, most_points> point;
+    std::array<Point<double>, most_points> point;
     std::array<std::array<double, most_points>, most_points> matrix;
 };
 
@@ -151,24 +164,28 @@ double feasible_relaxation(const PairContacts& pair, const Points& target, doubl
 }
 
 /// The points of a single contact, of which most pairs have no more, or of a pair.
-std::span<Point> points_of(Point& single) {
+template <class Real>
+std::span<Point<Real>> points_of(Point<Real>& single) {
     return {&single, 1};
 }
-std::span<Point> points_of(PairContacts& pair) {
+std::span<Point<double>> points_of(PairContacts& pair) {
     return {pair.point.data(), pair.count};
 }
 
 /// Each solves its own contact problem with all other forces as they are, over-relaxed; they return the change of the
 /// gap velocities by their own forces.
-inline double solve(Point& point, double omega, Wide* velocities) {
+template <class Real>
+double solve(Point<Real>& point, double omega, Wide<Real>* velocities) {
     // Without a jump: which contacts push changes from sweep to sweep, and processors guess it badly.
-    const double relaxed = point.gamma - omega * point.gap_velocity(velocities) * point.inverse_diagonal;
-    const double change = std::max(relaxed, 0.0) - point.gamma;
+    const Real relaxed =
+        point.gamma - static_cast<Real>(omega) * point.gap_velocity(velocities) * point.inverse_diagonal;
+    const Real change = std::max(relaxed, Real{0}) - point.gamma;
     point.push(change, velocities);
     return std::fabs(change) * point.diagonal;
 }
 
-inline double solve(PairContacts& pair, double omega, Wide* velocities) {
+template <class Real>
+double solve(PairContacts& pair, double omega, Wide<Real>* velocities) {
     Points velocity{}, target{};
     bool idle = true;
     for (std::uint32_t a = 0; a < pair.count; ++a) {
@@ -190,17 +207,23 @@ inline double solve(PairContacts& pair, double omega, Wide* velocities) {
     return largest;
 }
 
-template <class Item>
-double solve_all(std::span<Item> items, double omega, Wide* velocities) {
+template <class Item, class Real>
+double solve_all(std::span<Item> items, double omega, Wide<Real>* velocities) {
     double largest = 0.0;
     for (Item& item : items) largest = std::max(largest, solve(item, omega, velocities));
     return largest;
 }
 // One for each, as only plain functions can be compiled for several processors.
-JOSTLE_VECTORISED double solve_points(std::span<Point> points, double omega, Wide* velocities) {
+JOSTLE_VECTORISED double solve_items(std::span<Point<float>> points, double omega, Wide<float>* velocities) {
     return solve_all(points, omega, velocities);
 }
-JOSTLE_VECTORISED double solve_pairs(std::span<PairContacts> pairs, double omega, Wide* velocities) {
+JOSTLE_VECTORISED double solve_items(std::span<Point<double>> points, double omega, Wide<double>* velocities) {
+    return solve_all(points, omega, velocities);
+}
+JOSTLE_VECTORISED double solve_items(std::span<PairContacts> pairs, double omega, Wide<float>* velocities) {
+    return solve_all(pairs, omega, velocities);
+}
+JOSTLE_VECTORISED double solve_items(std::span<PairContacts> pairs, double omega, Wide<double>* velocities) {
     return solve_all(pairs, omega, velocities);
 }
 
@@ -215,15 +238,39 @@ struct Group {
 };
 
 /// Pairs of which no two share a rod: they can be solved in any order, by any threads.
+template <class Real>
 struct Colour {
-    Group<Point> singles;
+    Group<Point<Real>> singles;
     Group<PairContacts> pairs;
 };
 
+/// The force and lever of a unit gamma on each of the rods of a contact.
+struct Column {
+    ContactForce i, j;
+};
+
+Column column_of(const ContactMatrix& contact_matrix, std::uint32_t l) {
+    const Contact& contact = contact_matrix.contacts().contact[l];
+    const auto side = [&](double sign, double arm) {
+        return ContactForce{sign * contact.normal, (sign * arm) * contact.normal};
+    };
+    const ContactForce i = side(-1.0, contact.arm_i), j = side(1.0, contact.arm_j);
+    if (contact.i != contact.j) return {i, j};
+    return {{i.force + j.force, i.lever + j.lever}, {}};  // own image: one rod feels both
+}
+
+/// Keeps the velocities of the rods while contacts are solved one after the other. Real is what velocities and single
+/// contacts are stored in; pairs, whose matrices may be nearly singular, are in double.
+template <class Real>
 class Sweeper {
 public:
-    Sweeper(const ContactProblem& problem, double tolerance)
-        : matrix_(problem.matrix), b_(problem.constant), drowsy_velocity_(drowsy * tolerance / problem.time_step) {
+    /// Starts from `start`, as many numbers as there are contacts; contacts that come later start from what is then
+    /// there.
+    Sweeper(const ContactProblem& problem, double tolerance, const std::vector<double>& start)
+        : matrix_(problem.matrix),
+          b_(problem.constant),
+          start_(start),
+          drowsy_velocity_(drowsy * tolerance / problem.time_step) {
         extend();
     }
 
@@ -238,18 +285,18 @@ public:
     /// force.
     double sweep(double omega, bool all) {
         double largest = 0.0;
-        const auto pass = [&](auto& group, auto solve_items) {
+        const auto pass = [&](auto& group) {
             const auto items = all ? group.all() : group.awake_ones();
             largest = std::max(largest, parallel_max_of_blocks(items.size(), [&](std::size_t begin, std::size_t end) {
                                    return solve_items(items.subspan(begin, end - begin), omega, velocities_.data());
                                }));
         };
-        for (Colour& colour : colours_) {
-            pass(colour.singles, solve_points);
-            pass(colour.pairs, solve_pairs);
+        for (Colour<Real>& colour : colours_) {
+            pass(colour.singles);
+            pass(colour.pairs);
         }
         if (all) {
-            for (Colour& colour : colours_) {
+            for (Colour<Real>& colour : colours_) {
                 find_awake(colour.singles);
                 find_awake(colour.pairs);
             }
@@ -264,26 +311,24 @@ public:
         });
     }
 
-    /// Computes the forces on the rods and their velocities anew from gamma, so that no rounding of the sweeps is left.
-    void refresh(std::span<ContactForce> forces, std::span<ContactVelocity> velocities) {
-        std::vector<Wide> sums(forces.size());
-        for_all_points([&](Point& point) {
-            if (point.gamma == 0.0) return;
-            sums[point.i].add(point.gamma, point.column_i);
-            sums[point.j].add(point.gamma, point.column_j);
+    /// Fills `solution` from gamma alone, in double, so that no rounding of the sweeps is left in it.
+    void refresh(ContactSolution& solution) {
+        parallel_for(solution.forces.size(), [&](std::size_t place) { solution.forces[place] = {}; });
+        for_all_points([&](const auto& point) {
+            solution.gamma[point.contact] = point.gamma;
+            if (point.gamma == 0) return;
+            const Column column = column_of(matrix_.contact_matrix(), point.contact);
+            const double gamma = point.gamma;
+            solution.forces[point.i].force += gamma * column.i.force;
+            solution.forces[point.i].lever += gamma * column.i.lever;
+            solution.forces[point.j].force += gamma * column.j.force;
+            solution.forces[point.j].lever += gamma * column.j.lever;
         });
-        parallel_for(forces.size(), [&](std::size_t place) {
-            forces[place] = {sums[place].first(), sums[place].second()};
-            velocities[place] = velocity_of(matrix_.rods()[place], forces[place].force, forces[place].lever);
-            velocities_[place] = {velocities[place].centre, velocities[place].turning};
-        });
-    }
-
-    /// gamma and A gamma + b, one a contact.
-    void read(std::span<double> gamma, std::span<double> gap_velocities) {
-        for_all_points([&](Point& point) {
-            gamma[point.contact] = point.gamma;
-            gap_velocities[point.contact] = point.gap_velocity(velocities_.data());
+        parallel_for(solution.forces.size(), [&](std::size_t place) {
+            const ContactForce& force = solution.forces[place];
+            ContactVelocity& velocity = solution.velocities[place];
+            velocity = velocity_of(matrix_.rods()[place], force.force, force.lever);
+            velocities_[place] = {velocity.centre, velocity.turning};
         });
     }
 
@@ -324,14 +369,14 @@ private:
             auto& [first_of_single, first_of_pair] = new_contacts_[k];
             auto& [singles, pairs] = colours_[k];
             append(
-                singles, first_of_single, [&](std::uint32_t l) { return b_[l] < 0.0; },
-                [&](Point& point, std::uint32_t l) { point = point_of(l); });
+                singles, first_of_single, [&](std::uint32_t l) { return b_[l] < 0.0 || start_[l] > 0.0; },
+                [&](Point<Real>& point, std::uint32_t l) { point = point_of<Real>(l); });
             append(
                 pairs, first_of_pair, [](const auto&) { return true; },
                 [&](PairContacts& pair, const auto& first_and_count) {
                     const auto [first, count] = first_and_count;
                     pair.count = count;
-                    for (std::uint32_t a = 0; a < count; ++a) pair.point[a] = point_of(first + a);
+                    for (std::uint32_t a = 0; a < count; ++a) pair.point[a] = point_of<double>(first + a);
                     for (std::uint32_t a = 0; a < count; ++a)
                         for (std::uint32_t c = 0; c < count; ++c)
                             pair.matrix[a][c] = sum_of_products(pair.point[a].column_i, pair.point[c].answer_i,
@@ -352,39 +397,34 @@ private:
             if (group.awake != before + n) std::swap(group.items[group.awake], group.items[before + n]);
     }
 
-    Point point_of(std::uint32_t l) const {
-        const Contact& contact = matrix_.contact_matrix().contacts().contact[l];
+    template <class PointReal>
+    Point<PointReal> point_of(std::uint32_t l) const {
         const auto [i, j] = matrix_.contact_matrix().ends()[l];
-        const auto column = [&](double sign, double arm) {
-            return ContactForce{sign * contact.normal, (sign * arm) * contact.normal};
-        };
-        ContactForce of_i = column(-1.0, contact.arm_i), of_j = column(1.0, contact.arm_j);
-        if (i == j) {  // own image: one rod feels both
-            of_i = {of_i.force + of_j.force, of_i.lever + of_j.lever};
-            of_j = {};
-        }
+        const Column column = column_of(matrix_.contact_matrix(), l);
         const auto answer = [&](std::uint32_t place, const ContactForce& force) {
             const ContactVelocity velocity = velocity_of(matrix_.rods()[place], force.force, force.lever);
-            return Wide{velocity.centre, velocity.turning};
+            return Wide<PointReal>{velocity.centre, velocity.turning};
         };
-        Point point;
-        point.column_i = {of_i.force, of_i.lever};
-        point.column_j = {of_j.force, of_j.lever};
-        point.answer_i = answer(i, of_i);
-        point.answer_j = answer(j, of_j);
-        point.b = b_[l];
+        const double diagonal = matrix_.diagonal()[l];
+        Point<PointReal> point;
+        point.column_i = {column.i.force, column.i.lever};
+        point.column_j = {column.j.force, column.j.lever};
+        point.answer_i = answer(i, column.i);
+        point.answer_j = answer(j, column.j);
+        point.b = static_cast<PointReal>(b_[l]);
+        point.gamma = static_cast<PointReal>(start_[l]);
+        point.diagonal = static_cast<PointReal>(diagonal);
+        point.inverse_diagonal = static_cast<PointReal>(diagonal > 0.0 ? 1.0 / diagonal : 0.0);
         point.i = i;
         point.j = j;
         point.contact = l;
-        point.diagonal = matrix_.diagonal()[l];
-        point.inverse_diagonal = point.diagonal > 0.0 ? 1.0 / point.diagonal : 0.0;
         return point;
     }
 
     template <class Item>
     void find_awake(Group<Item>& group) {
         const auto is_awake = [&](Item& item) {
-            for (const Point& point : points_of(item))
+            for (const auto& point : points_of(item))
                 if (point.gamma > 0.0 || point.gap_velocity(velocities_.data()) < drowsy_velocity_) return true;
             return false;
         };
@@ -397,10 +437,10 @@ private:
     void for_all_points(Body&& body) {
         const auto pass = [&](auto items) {
             parallel_for(items.size(), [&](std::size_t k) {
-                for (Point& point : points_of(items[k])) body(point);
+                for (const auto& point : points_of(items[k])) body(point);
             });
         };
-        for (Colour& colour : colours_) {
+        for (Colour<Real>& colour : colours_) {
             pass(colour.singles.all());
             pass(colour.pairs.all());
         }
@@ -413,74 +453,108 @@ private:
 
     const DelassusOperator& matrix_;
     const std::vector<double>& b_;
+    const std::vector<double>& start_;
     double drowsy_velocity_;
-    std::vector<Wide> velocities_;             ///< (places) V = M D gamma, kept up to date
+    std::vector<Wide<Real>> velocities_;       ///< (places) V = M D gamma, kept up to date
     std::vector<std::uint64_t> taken_;         ///< (places) a bit for each colour that a rod has
     std::size_t coloured_ = 0;                 ///< contacts taken in
     std::vector<FirstContacts> new_contacts_;  ///< of the pairs of each colour, while they are taken in
-    std::vector<Colour> colours_;
+    std::vector<Colour<Real>> colours_;
+};
+
+/// The sweeps of a solution, with what is stored in Real. Ends when solved, at the limit of sweeps, or, if
+/// `most_verifications` is above 0, when so many have found the residual too large although the sweeps stood still.
+template <class Real>
+class Solver {
+public:
+    Solver(const ContactProblem& problem, const LcpSettings& settings, ContactSolution& solution)
+        : problem_(problem),
+          settings_(settings),
+          solution_(solution),
+          sweeper_(problem, settings.tolerance, solution.gamma) {
+        sweeper_.refresh(solution_);
+    }
+
+    /// Whether nothing is left to be done: solved, and no contact missed; or lost.
+    bool solve(SolverOutcome& outcome, int most_verifications) {
+        bool look_at_all = false;
+        std::uint64_t next_verification = 0;
+        for (int verifications = 0; outcome.iterations < settings_.max_iterations;) {
+            const bool all = look_at_all || outcome.iterations % full_sweep_every == full_sweep_every - 1;
+            const double change = problem_.time_step * sweeper_.sweep(relaxation(outcome.iterations), all);
+            ++outcome.iterations;
+            look_at_all = false;
+            if (outcome.iterations == early_search) {
+                sweeper_.read_velocities(solution_.velocities);
+                if (add_missed(false)) continue;
+            }
+            // The residual is near the last change; it is computed where that is small, and now and then for the
+            // paper's norm.
+            const bool small = settings_.residual == LcpResidual::length ? !(change > settings_.tolerance)
+                                                                         : outcome.iterations >= next_verification;
+            if (!small && outcome.iterations < settings_.max_iterations) continue;
+            if (verified(outcome)) return true;
+            if (++verifications == most_verifications) return false;
+            look_at_all = true;
+            next_verification = outcome.iterations + 5;
+        }
+        return false;
+    }
+
+    /// The same for the solution as it is, without a sweep.
+    bool verified(SolverOutcome& outcome) {
+        verify(outcome);
+        if (outcome.status == LcpStatus::not_finite) return true;
+        if (outcome.status != LcpStatus::converged) return false;
+        ++outcome.solves;
+        return !add_missed(true);
+    }
+
+    /// Residual and status, over all contacts, from gamma alone.
+    void verify(SolverOutcome& outcome) {
+        sweeper_.refresh(solution_);
+        LcpResult result;
+        result.velocity.resize(problem_.matrix.size());
+        problem_.matrix.contact_matrix().apply_transpose(solution_.velocities, result.velocity);
+        parallel_for(result.velocity.size(), [&](std::size_t l) { result.velocity[l] += problem_.constant[l]; });
+        result.solution.swap(solution_.gamma);
+        result.residual = lcp_residual(problem_.lcp(), settings_.residual, result.solution, result.velocity);
+        outcome.status = lcp_status(problem_.lcp(), settings_, result);
+        outcome.residual = result.residual;
+        result.solution.swap(solution_.gamma);
+    }
+
+private:
+    bool add_missed(bool final) {
+        if (!problem_.add_missed || !problem_.add_missed(solution_, final)) return false;
+        solution_.resize(problem_.matrix.contact_matrix());
+        sweeper_.extend();
+        return true;
+    }
+
+    const ContactProblem& problem_;
+    const LcpSettings& settings_;
+    ContactSolution& solution_;
+    Sweeper<Real> sweeper_;
 };
 
 }  // namespace
 
 SolverOutcome solve_projected_sor(const ContactProblem& problem, const LcpSettings& settings,
                                   ContactSolution& solution) {
-    LcpResult result;
     SolverOutcome outcome;
-    Sweeper sweeper(problem, settings.tolerance);
-    const auto resize = [&]() {
-        solution.resize(problem.matrix.contact_matrix());
-        result.solution.resize(problem.matrix.size(), 0.0);
-        result.velocity.resize(problem.matrix.size());
-    };
-    const auto verify = [&]() {
-        sweeper.refresh(solution.forces, solution.velocities);
-        sweeper.read(result.solution, result.velocity);
-        result.residual = lcp_residual(problem.lcp(), settings.residual, result.solution, result.velocity);
-        return !std::isfinite(result.residual) || result.residual <= settings.tolerance;
-    };
-    const auto add_missed = [&](bool final) {
-        if (!problem.add_missed || !problem.add_missed(solution, final)) return false;
-        sweeper.extend();
-        resize();
-        return true;
-    };
-    // Whether nothing is left to be done: solved, and no contact missed; or lost.
-    const auto verified = [&]() {
-        if (!verify()) return false;
-        if (!std::isfinite(result.residual)) return true;
-        ++outcome.solves;
-        return !add_missed(true);
-    };
-    resize();
-    const bool closing =
-        std::any_of(problem.constant.begin(), problem.constant.end(), [](double b) { return !(b >= 0.0); });
-    bool finished = !closing && verified(), look_at_all = false;
-    std::uint64_t next_verification = 0;
-    while (!finished && result.iterations < settings.max_iterations) {
-        const bool all = look_at_all || result.iterations % full_sweep_every == full_sweep_every - 1;
-        const double change = problem.time_step * sweeper.sweep(relaxation(result.iterations), all);
-        ++result.iterations;
-        look_at_all = false;
-        if (result.iterations == early_search) {
-            sweeper.read_velocities(solution.velocities);
-            if (add_missed(false)) continue;
-        }
-        // The residual is near the last change; it is computed where that is small, and now and then for the paper's
-        // norm.
-        const bool small = settings.residual == LcpResidual::length ? change <= settings.tolerance
-                                                                    : result.iterations >= next_verification;
-        if (!small && result.iterations < settings.max_iterations) continue;
-        finished = verified();
-        look_at_all = true;
-        next_verification = result.iterations + 5;
+    solution.resize(problem.matrix.contact_matrix());
+    const auto& b = problem.constant;
+    const double deepest = parallel_max(b.size(), 0.0, [&](std::size_t l) { return -b[l]; });
+    const bool in_float = settings.residual == LcpResidual::length && std::isfinite(deepest) &&
+                          settings.tolerance > finest_in_float * problem.time_step * deepest;
+    if (in_float) {
+        Solver<float> solver(problem, settings, solution);
+        if (deepest == 0.0 && solver.verified(outcome)) return outcome;
+        if (solver.solve(outcome, patience_with_float)) return outcome;
     }
-    if (!finished) verify();  // contacts may have been added since
-    result.status = lcp_status(problem.lcp(), settings, result);
-    solution.gamma = std::move(result.solution);
-    outcome.status = result.status;
-    outcome.residual = result.residual;
-    outcome.iterations = result.iterations;
+    Solver<double> solver(problem, settings, solution);
+    if (!solver.verified(outcome) && !solver.solve(outcome, 0)) solver.verify(outcome);
     return outcome;
 }
 
