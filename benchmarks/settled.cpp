@@ -120,8 +120,9 @@ std::unique_ptr<Simulation> settled(const Crowd& crowd, std::uint64_t count, Sol
         simulation_of(solved_by(crowd, method, tolerance), copied(settled_assembly(crowd), times), {}));
 }
 
-std::unique_ptr<Simulation> continued(const Crowd& crowd, const Simulation& from, SolverMethod method,
-                                      double tolerance) {
-    return std::make_unique<Simulation>(
-        simulation_of(solved_by(crowd, method, tolerance), {from.box(), from.rods()}, from.clock()));
+std::unique_ptr<Simulation> continued(const Crowd& crowd, const Simulation& from, SolverMethod method, double tolerance,
+                                      double range) {
+    Scene scene = solved_by(crowd, method, tolerance);
+    if (range > 0.0) scene.contact.range = range;
+    return std::make_unique<Simulation>(simulation_of(scene, {from.box(), from.rods()}, from.clock()));
 }

@@ -34,6 +34,7 @@ std::unique_ptr<jostle::Simulation> settled(const Crowd& crowd, std::uint64_t co
                                             jostle::SolverMethod method = jostle::SolverMethod::automatic,
                                             double tolerance = 1e-5);
 
-/// A simulation of the crowd that goes on from where another stands.
+/// A simulation of the crowd that goes on from where another stands. `range` (in D): contacts with a smaller gap are
+/// all in the contact problem.
 std::unique_ptr<jostle::Simulation> continued(const Crowd& crowd, const jostle::Simulation& from,
-                                              jostle::SolverMethod method, double tolerance);
+                                              jostle::SolverMethod method, double tolerance, double range);

@@ -44,7 +44,7 @@ using RodAfter = std::function<std::pair<Vec3, Vec3>(std::uint32_t row)>;
 class CollisionSearch {
 public:
     /// `travel`: of the neighbour list; `margin`, `push_allowance`: lengths; `range`: contacts with a smaller gap are
-    /// always taken (0: none).
+    /// always taken (0: those that overlap).
     CollisionSearch(double travel, double margin, double push_allowance, double range)
         : neighbours_(travel), margin_(margin), push_allowance_(push_allowance), range_(range) {}
 

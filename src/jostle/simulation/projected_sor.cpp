@@ -26,7 +26,7 @@ constexpr std::uint64_t full_sweep_every = 5;
 constexpr double finest_in_float = 1e-5;
 /// Double takes over where so many verifications have found more residual than the sweeps in float had left to do.
 constexpr int patience_with_float = 3;
-/// After this sweep, missed contacts are looked for the first time.
+/// After this sweep, and three times as many, and so on, missed contacts are looked for before the sweeps have settled.
 constexpr std::uint64_t early_search = 6;
 /// A contact without force takes part in the other sweeps if its gap would open by less than this many tolerances.
 constexpr double drowsy = 100.0;
@@ -421,15 +421,22 @@ private:
         return point;
     }
 
+    /// Brings the items that push, or may soon, to the front.
     template <class Item>
     void find_awake(Group<Item>& group) {
-        const auto is_awake = [&](Item& item) {
-            for (const auto& point : points_of(item))
-                if (point.gamma > 0.0 || point.gap_velocity(velocities_.data()) < drowsy_velocity_) return true;
-            return false;
-        };
-        const auto end = std::partition(group.items.begin(), group.items.end(), is_awake);
-        group.awake = static_cast<std::size_t>(end - group.items.begin());
+        std::vector<std::uint8_t> awake(group.items.size());
+        parallel_for(awake.size(), [&](std::size_t k) {
+            for (const auto& point : points_of(group.items[k]))
+                if (point.gamma > 0 || point.gap_velocity(velocities_.data()) < drowsy_velocity_) awake[k] = 1;
+        });
+        std::size_t front = 0;
+        for (std::size_t back = awake.size();;) {
+            while (front < back && awake[front] == 1) ++front;
+            while (front < back && awake[back - 1] == 0) --back;
+            if (front == back) break;
+            std::swap(group.items[front++], group.items[--back]);
+        }
+        group.awake = front;
     }
 
     /// Calls body(point) for all points; those of a colour in parallel.
@@ -484,7 +491,8 @@ public:
             const double change = problem_.time_step * sweeper_.sweep(relaxation(outcome.iterations), all);
             ++outcome.iterations;
             look_at_all = false;
-            if (outcome.iterations == early_search) {
+            if (outcome.iterations >= next_search_) {
+                next_search_ = 3 * outcome.iterations;
                 sweeper_.read_velocities(solution_.velocities);
                 if (add_missed(false)) continue;
             }
@@ -536,6 +544,7 @@ private:
     const LcpSettings& settings_;
     ContactSolution& solution_;
     Sweeper<Real> sweeper_;
+    std::uint64_t next_search_ = early_search;
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace jostle {
 ///
 /// Only contacts that push, or are about to, take part in most sweeps. Before the result is called solved, forces and
 /// velocities are computed anew from gamma, and the residual over all contacts from them. Missed contacts are asked for
-/// once early, while they are still cheap to add, and then with every solution. The outcome's iterations are sweeps.
+/// now and then while sweeps go on, and with every solution. The outcome's iterations are sweeps.
 SolverOutcome solve_projected_sor(const ContactProblem& problem, const LcpSettings& settings,
                                   ContactSolution& solution);
 
