@@ -132,6 +132,8 @@ Scene crowd(std::uint64_t count, double length, double volume_fraction) {
     scene.rods.length = length;
     scene.time.rms_step = 0.03;
     scene.time.production = 1.0;
+    // Many more contacts than a step needs, so that loops over contacts start threads.
+    if (count < 2000) scene.contact.range = 0.5;
     return scene;
 }
 

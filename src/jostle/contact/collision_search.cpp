@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "jostle/math/vectorised.hpp"
 #include "jostle/parallel/parallel_for.hpp"
@@ -166,22 +165,26 @@ void CollisionSearch::append(const PairName& name, const PairGeometry& before, c
 }
 
 bool CollisionSearch::is_contact(const PairName& name, const Contacts& contacts) const {
-    const auto before = [&](std::uint32_t l, const PairName& wanted) {
-        return PairName{contacts.contact[l].i, contacts.contact[l].j, contacts.image[l]} < wanted;
+    const auto name_of = [&](std::size_t l) {
+        return PairName{contacts.contact[l].i, contacts.contact[l].j, contacts.image[l]};
     };
-    const auto all = std::views::iota(std::uint32_t{0}, static_cast<std::uint32_t>(first_count_));
-    const auto place = std::lower_bound(all.begin(), all.end(), name, before);
-    if (place != all.end() && contacts.contact[*place].i == name.i && contacts.contact[*place].j == name.j &&
-        contacts.image[*place] == name.image)
-        return true;
+    std::size_t low = 0, high = first_count_;
+    while (low < high) {
+        const std::size_t middle = low + (high - low) / 2;
+        if (name_of(middle) < name)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    if (low < first_count_ && name_of(low) == name) return true;
     return std::binary_search(added_.begin(), added_.end(), name);
 }
 
 /// Whether pushes could use up the slack of a bystander: by their size, and if so, along the normal of its slab.
 bool CollisionSearch::may_meet(const Bystander& bystander, const Push& i, const Push& j) {
-    const auto& [name, slack, normal] = bystander;
+    const float slack = bystander.slack;
     if (slack >= i.farthest + j.farthest) return false;
-    const auto along = [&normal](const std::array<float, 3>& a) {
+    const auto along = [&normal = bystander.normal](const std::array<float, 3>& a) {
         return normal[0] * a[0] + normal[1] * a[1] + normal[2] * a[2];
     };
     const float width = slack + along(j.centre) - along(i.centre) - std::fabs(along(i.end)) - std::fabs(along(j.end));

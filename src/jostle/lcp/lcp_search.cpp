@@ -91,7 +91,7 @@ std::vector<double> inverse_diagonal(const LinearOperator& matrix) {
 }
 
 double first_step_length(LcpSearch& search, std::span<const double> weight) {
-    const auto& [gamma, velocity, residual] = search.current();
+    const std::vector<double>&gamma = search.current().gamma, &velocity = search.current().velocity;
     const auto weight_of = [&](std::size_t l) { return weight.empty() ? 1.0 : weight[l]; };
     std::vector<double> downhill(gamma.size()), image(gamma.size());
     parallel_for(gamma.size(), [&](std::size_t l) {

@@ -48,7 +48,7 @@ private:
     /// Marks the contacts whose velocity is to vanish; returns whether any mark changed.
     bool find_active() {
         const auto diagonal = search_.problem().matrix.diagonal();
-        const auto& [gamma, velocity, residual] = search_.current();
+        const std::vector<double>&gamma = search_.current().gamma, &velocity = search_.current().velocity;
         return parallel_sum<int>(active_.size(), [&](std::size_t l) {
                    const char before = active_[l];
                    active_[l] = diagonal[l] * gamma[l] > velocity[l];
@@ -59,7 +59,7 @@ private:
     /// The Newton direction: conjugate gradients reduce the velocities of active contacts to `reduction` of what they
     /// are after all other forces are gone, in at most `most` iterations.
     void find_direction(double reduction, int most) {
-        const auto& [gamma, velocity, unused] = search_.current();
+        const std::vector<double>&gamma = search_.current().gamma, &velocity = search_.current().velocity;
         parallel_for(active_.size(), [&](std::size_t l) { direction_[l] = active_[l] ? 0.0 : -gamma[l]; });
         parallel_for(active_.size(), [&](std::size_t l) { residual_[l] = active_[l] ? -velocity[l] : 0.0; });
         if (parallel_max(active_.size(), 0.0, [&](std::size_t l) { return std::fabs(direction_[l]); }) > 0.0) {
