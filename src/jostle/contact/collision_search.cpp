@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jostle/contact/segment_separation.hpp"
 #include "jostle/math/vectorised.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
@@ -25,12 +26,7 @@ struct Batch {
     std::array<Row, 3> normal;
 };
 
-inline float clamped(float value, float limit) {
-    const float above = value > -limit ? value : -limit;
-    return above < limit ? above : limit;
-}
-
-/// The gaps of segments as in segment_distance.hpp, and the width of the empty slab between the moved rods whose faces
+/// The gaps of pairs, and the width of the empty slab between the moved rods whose faces
 /// are normal to the line between the nearest points.
 JOSTLE_VECTORISED void glance_at(std::size_t count, Batch& batch) {
     const auto& [x, y, z] = batch.between;
@@ -41,15 +37,8 @@ JOSTLE_VECTORISED void glance_at(std::size_t count, Batch& batch) {
     const auto& [qx, qy, qz] = batch.axis_j_after;
     auto& [normal_x, normal_y, normal_z] = batch.normal;
     for (std::size_t k = 0; k < count; ++k) {
-        const float d_i = x[k] * ux[k] + y[k] * uy[k] + z[k] * uz[k], d_j = x[k] * vx[k] + y[k] * vy[k] + z[k] * vz[k];
-        const float cosine = ux[k] * vx[k] + uy[k] * vy[k] + uz[k] * vz[k];
-        const float wx = ux[k] - cosine * vx[k], wy = uy[k] - cosine * vy[k], wz = uz[k] - cosine * vz[k];
-        const float along = (x[k] - d_j * vx[k]) * wx + (y[k] - d_j * vy[k]) * wy + (z[k] - d_j * vz[k]) * wz;
-        const float s_start = clamped(along / (wx * wx + wy * wy + wz * wz + 1e-20F), batch.half_i[k]);
-        const float s_j = clamped(s_start * cosine - d_j, batch.half_j[k]);
-        const float s_i = clamped(s_j * cosine + d_i, batch.half_i[k]);
-        const float ex = x[k] + s_j * vx[k] - s_i * ux[k], ey = y[k] + s_j * vy[k] - s_i * uy[k],
-                    ez = z[k] + s_j * vz[k] - s_i * uz[k];
+        const auto [ex, ey, ez] = segment_separation({x[k], y[k], z[k]}, {ux[k], uy[k], uz[k]}, batch.half_i[k],
+                                                     {vx[k], vy[k], vz[k]}, batch.half_j[k]);
         const float distance = std::sqrt(ex * ex + ey * ey + ez * ez) + 1e-20F;
         const float nx = ex / distance, ny = ey / distance, nz = ez / distance;
         normal_x[k] = nx;
@@ -62,10 +51,6 @@ JOSTLE_VECTORISED void glance_at(std::size_t count, Batch& batch) {
     }
 }
 
-std::array<float, 3> single(const Vec3& a) {
-    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
-}
-
 }  // namespace
 
 double CollisionSearch::find(const Rods& rods, const Box& box, const RodMotion& motion, Contacts& contacts) {
@@ -74,9 +59,9 @@ double CollisionSearch::find(const Rods& rods, const Box& box, const RodMotion& 
     parallel_for(rods.size(), [&](std::size_t i) {
         reach_[i] = std::max(motion.displacement[i] + motion.touching[i] + push_allowance_, 0.5 * range_);
         glance_[i] = {rods.centre[i],
-                      single(rods.axis[i]),
-                      single(motion.centre[i] - rods.centre[i]),
-                      single(motion.axis[i]),
+                      in_float(rods.axis[i]),
+                      in_float(motion.centre[i] - rods.centre[i]),
+                      in_float(motion.axis[i]),
                       static_cast<float>(0.5 * rods.length[i]),
                       static_cast<float>(0.5 * rods.diameter[i]),
                       static_cast<float>(motion.touching[i]),
@@ -104,7 +89,7 @@ void CollisionSearch::search_block(std::size_t block, const Rods& rods, const Bo
         const std::uint32_t i = neighbours_.i(pair), j = neighbours_.j(pair);
         const RodGlance &a = glance_[i], &b = glance_[j];
         const Image image = neighbours_.image_now(pair, a.image, b.image);
-        const auto between = single(b.centre + box.displacement(image) - a.centre);
+        const auto between = in_float(b.centre + box.displacement(image) - a.centre);
         names[count] = {i, j, image};
         for (std::size_t k = 0; k < 3; ++k) {
             batch.between[k][count] = between[k];
@@ -149,7 +134,7 @@ void CollisionSearch::look_closely(const PairName& name, const Rods& rods, const
     if (gap >= range_ && slack >= margin_ && !passed_through) {
         const double rounding = 1e-6 * after.radii;
         found.bystanders.push_back(
-            {name, static_cast<float>(slack - rounding), single(nearest_after.separation / distance_after)});
+            {name, static_cast<float>(slack - rounding), in_float(nearest_after.separation / distance_after)});
         return;
     }
     append(name, before, nearest, distance, after, found.contacts);

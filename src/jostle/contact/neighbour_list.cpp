@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "jostle/contact/cell_list.hpp"
+#include "jostle/contact/segment_separation.hpp"
 #include "jostle/math/vectorised.hpp"
 
 namespace jostle {
@@ -50,27 +51,14 @@ struct Surroundings {
     std::size_t size() const { return row.size(); }
 };
 
-inline float clamped(float value, float limit) {
-    const float above = value > -limit ? value : -limit;
-    return above < limit ? above : limit;
-}
-
-/// One rod against many: the gaps of segments as in segment_distance.hpp, in float.
+/// The gaps of one rod and many.
 JOSTLE_VECTORISED void find_gaps(std::size_t count, const float* x, const float* y, const float* z, const float* axis_x,
                                  const float* axis_y, const float* axis_z, const float* half_length,
                                  const float* radius, const std::array<float, 8>& one, float* gap) {
     const auto [x_i, y_i, z_i, ux, uy, uz, half_i, radius_i] = one;
     for (std::size_t k = 0; k < count; ++k) {
-        const float dx = x[k] - x_i, dy = y[k] - y_i, dz = z[k] - z_i;
-        const float vx = axis_x[k], vy = axis_y[k], vz = axis_z[k];
-        const float d_i = dx * ux + dy * uy + dz * uz, d_j = dx * vx + dy * vy + dz * vz;
-        const float cosine = ux * vx + uy * vy + uz * vz;
-        const float wx = ux - cosine * vx, wy = uy - cosine * vy, wz = uz - cosine * vz;
-        const float along = (dx - d_j * vx) * wx + (dy - d_j * vy) * wy + (dz - d_j * vz) * wz;
-        const float s_start = clamped(along / (wx * wx + wy * wy + wz * wz + 1e-20F), half_i);
-        const float s_j = clamped(s_start * cosine - d_j, half_length[k]);
-        const float s_i = clamped(s_j * cosine + d_i, half_i);
-        const float ex = dx + s_j * vx - s_i * ux, ey = dy + s_j * vy - s_i * uy, ez = dz + s_j * vz - s_i * uz;
+        const auto [ex, ey, ez] = segment_separation({x[k] - x_i, y[k] - y_i, z[k] - z_i}, {ux, uy, uz}, half_i,
+                                                     {axis_x[k], axis_y[k], axis_z[k]}, half_length[k]);
         gap[k] = std::sqrt(ex * ex + ey * ey + ez * ez) - radius[k] - radius_i;
     }
 }

@@ -11,17 +11,6 @@ namespace jostle {
 
 namespace {
 
-/// s.s, s.y, y.y of the last step, scaled; y.y over contacts with s != 0.
-struct StepProducts {
-    double ss = 0.0, sy = 0.0, yy = 0.0;
-    StepProducts& operator+=(const StepProducts& other) {
-        ss += other.ss;
-        sy += other.sy;
-        yy += other.yy;
-        return *this;
-    }
-};
-
 /// The step lengths, one after the other.
 class AdaptiveStepLength {
 public:

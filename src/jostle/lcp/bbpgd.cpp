@@ -9,17 +9,6 @@ namespace jostle {
 
 namespace {
 
-/// s.s, s.y, y.y of the last step s of gamma and y of the gradient.
-struct StepProducts {
-    double ss = 0.0, sy = 0.0, yy = 0.0;
-    StepProducts& operator+=(const StepProducts& other) {
-        ss += other.ss;
-        sy += other.sy;
-        yy += other.yy;
-        return *this;
-    }
-};
-
 double next_step_length(const StepProducts& products, BarzilaiBorwein rule, std::uint64_t iteration, double last) {
     if (!(products.sy > 0.0)) return last;
     const bool use_bb1 = rule == BarzilaiBorwein::bb1 || (rule == BarzilaiBorwein::alternating && iteration % 2 == 1);

@@ -62,6 +62,17 @@ private:
     std::uint64_t since_best_ = 0;  ///< iterates
 };
 
+/// s.s, s.y, y.y of the last step s of gamma and y of the gradient, in the solver's own scaling.
+struct StepProducts {
+    double ss = 0.0, sy = 0.0, yy = 0.0;
+    StepProducts& operator+=(const StepProducts& other) {
+        ss += other.ss;
+        sy += other.sy;
+        yy += other.yy;
+        return *this;
+    }
+};
+
 /// 1/A_ll: scaled by it, contacts of rods of any size weigh alike (Jacobi). Where A_ll = 0, which also means a row and
 /// column of zeros, the smallest of the others stands in for it, or 1.
 std::vector<double> inverse_diagonal(const LinearOperator& matrix);

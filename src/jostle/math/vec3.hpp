@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 
 namespace jostle {
@@ -72,6 +73,11 @@ inline Vec3 normalised(const Vec3& a) {
 }
 inline bool is_finite(const Vec3& a) {
     return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
+
+/// The same in float.
+inline std::array<float, 3> in_float(const Vec3& a) {
+    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
 }
 
 /// Some unit vector at right angles to the unit vector `n`, the same for the same `n`.

@@ -139,10 +139,7 @@ bool Simulation::add_missed_contacts(const ContactMatrix& contact_matrix, const 
         const Vec3 centre = dt * linear, end = (dt * half) * turning;
         const double farthest = farthest_displacement(centre, dt * turning, half) + twist;
         const double rounding = 1e-6 * farthest;
-        const auto single = [](const Vec3& a) {
-            return std::array{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
-        };
-        pushes_[row] = {single(centre), single(end), static_cast<float>(farthest + rounding),
+        pushes_[row] = {in_float(centre), in_float(end), static_cast<float>(farthest + rounding),
                         static_cast<float>(twist + rounding)};
     });
     const RodAfter after = [&](std::uint32_t row) -> std::pair<Vec3, Vec3> {
