@@ -40,7 +40,7 @@ SeriesFile resumed_series(const RunDirectory& directory, const Scene& scene, con
     if (scene.output.contacts)
         SeriesFile::require_prefix(directory.file("contacts.csv"), contact_columns(scene.units.system),
                                    checkpoint.contacts_bytes, checkpoint.contacts_hash);
-    return SeriesFile::resume(directory.file("series.csv"), series_columns(scene.units.system), checkpoint.series_bytes,
+    return SeriesFile::resume(directory.file("series.csv"), series_columns(scene), checkpoint.series_bytes,
                               checkpoint.series_hash);
 }
 
@@ -50,7 +50,7 @@ RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::strin
                    const Simulation& simulation)
     : directory_(directory),
       resolved_scene_(std::move(resolved_scene)),
-      series_file_(SeriesFile::create(directory.file("series.csv"), series_columns(scene.units.system))) {
+      series_file_(SeriesFile::create(directory.file("series.csv"), series_columns(scene))) {
     series_ = {directory.file("series.csv"), names_of(series_file_.columns()),
                std::vector<std::vector<double>>(series_file_.columns().size())};
     write_series_description(directory.file("series.json"), series_file_.columns());

@@ -8,7 +8,8 @@
 
 using namespace jostle;
 
-std::vector<SeriesColumn> series_columns(UnitSystem units) {
+std::vector<SeriesColumn> series_columns(const Scene& scene) {
+    const UnitSystem units = scene.units.system;
     const std::string stress = unit_of(units, dimension::stress);
     const std::string pressure_sign = "positive in compression";
     std::vector<SeriesColumn> columns = {
@@ -41,6 +42,18 @@ std::vector<SeriesColumn> series_columns(UnitSystem units) {
                        ""});
     columns.push_back({"max_overlap", length, "",
                        "largest overlap of two rods, largest of the steps since the last row", "positive: overlap"});
+    if (!scene.output.stress_conventions) return columns;
+    for (const char* name : centre_of_mass_column_names)
+        columns.push_back({name, stress, "",
+                           "element of the sum of (r_j - r_i) F over contacts, over the volume (centre of mass to "
+                           "centre of mass), mean over the steps since the last row",
+                           pressure_sign});
+    for (const char* name : centre_line_column_names)
+        columns.push_back(
+            {name, stress, "",
+             "element of the sum of (r_j + a_j - r_i - a_i) F over contacts, over the volume (centre line "
+             "to centre line), mean over the steps since the last row",
+             pressure_sign});
     return columns;
 }
 
@@ -65,5 +78,8 @@ std::vector<double> series_row(const Simulation& simulation, const StepSums& sum
     for (const double sum : {sums.contacts, sums.active_contacts, sums.iterations}) row.push_back(sum / sums.steps);
     row.push_back(sums.residual);
     row.push_back(sums.max_overlap);
+    if (!simulation.settings().stress_conventions) return row;
+    for (const Mat3* sum : {&sums.centre_of_mass_virial, &sums.centre_line_virial})
+        for (const double element : sum->m) row.push_back(element / (sums.steps * volume));
     return row;
 }

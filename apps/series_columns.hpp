@@ -12,12 +12,19 @@
 inline constexpr std::array<const char*, 9> stress_column_names = {"stress_xx", "stress_xy", "stress_xz",
                                                                    "stress_yx", "stress_yy", "stress_yz",
                                                                    "stress_zx", "stress_zy", "stress_zz"};
+/// The same of two other conventions, with `output.stress_conventions`.
+inline constexpr std::array<const char*, 9> centre_of_mass_column_names = {
+    "centre_of_mass_xx", "centre_of_mass_xy", "centre_of_mass_xz", "centre_of_mass_yx", "centre_of_mass_yy",
+    "centre_of_mass_yz", "centre_of_mass_zx", "centre_of_mass_zy", "centre_of_mass_zz"};
+inline constexpr std::array<const char*, 9> centre_line_column_names = {
+    "centre_line_xx", "centre_line_xy", "centre_line_xz", "centre_line_yx", "centre_line_yy",
+    "centre_line_yz", "centre_line_zx", "centre_line_zy", "centre_line_zz"};
 /// Names of the six independent columns of the order tensor, xx xy xz yy yz zz.
 inline constexpr std::array<const char*, 6> order_tensor_column_names = {"order_xx", "order_xy", "order_xz",
                                                                          "order_yy", "order_yz", "order_zz"};
 
 /// The columns of series.csv, with unit, definition and sign of each.
-std::vector<jostle::SeriesColumn> series_columns(jostle::UnitSystem units);
+std::vector<jostle::SeriesColumn> series_columns(const jostle::Scene& scene);
 
 /// One row: means over the steps in `sums`, and the order of the rods as they are now.
 std::vector<double> series_row(const jostle::Simulation& simulation, const StepSums& sums);

@@ -9,6 +9,8 @@ using namespace jostle;
 void StepSums::add(const StepReport& report) {
     steps += 1.0;
     collision_virial += report.collision_virial;
+    centre_of_mass_virial += report.centre_of_mass_virial;
+    centre_line_virial += report.centre_line_virial;
     contacts += static_cast<double>(report.contacts);
     active_contacts += static_cast<double>(report.active_contacts);
     iterations += static_cast<double>(report.iterations);
@@ -28,12 +30,13 @@ void StepSums::start_row() {
 std::vector<double> StepSums::to_numbers() const {
     std::vector<double> numbers = {steps,    contacts,    active_contacts, iterations,
                                    residual, max_overlap, run_max_overlap, run_iterations};
-    numbers.insert(numbers.end(), collision_virial.m.begin(), collision_virial.m.end());
+    for (const Mat3* sum : {&collision_virial, &centre_of_mass_virial, &centre_line_virial})
+        numbers.insert(numbers.end(), sum->m.begin(), sum->m.end());
     return numbers;
 }
 
 StepSums StepSums::from_numbers(const std::vector<double>& numbers) {
-    if (numbers.size() != 8 + 9)
+    if (numbers.size() != 8 + 3 * 9)
         throw InputError({.key = "checkpoint",
                           .problem = "it holds sums of another version of jostle",
                           .suggestion = "Start anew with --fresh"});
@@ -46,6 +49,10 @@ StepSums StepSums::from_numbers(const std::vector<double>& numbers) {
     sums.max_overlap = numbers[5];
     sums.run_max_overlap = numbers[6];
     sums.run_iterations = numbers[7];
-    std::copy(numbers.begin() + 8, numbers.end(), sums.collision_virial.m.begin());
+    auto from = numbers.begin() + 8;
+    for (Mat3* sum : {&sums.collision_virial, &sums.centre_of_mass_virial, &sums.centre_line_virial}) {
+        std::copy(from, from + 9, sum->m.begin());
+        from += 9;
+    }
     return sums;
 }

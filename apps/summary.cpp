@@ -178,6 +178,13 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
         {"unit", stress_unit},
         {"definition", "n kT, on the diagonal"}};
     summary["principal_stresses_collision"] = {{"mean", mean_principal_stresses(stress)}, {"unit", stress_unit}};
+    if (scene.output.stress_conventions)
+        for (const auto& [name, columns] : {std::pair{"centre_of_mass", centre_of_mass_column_names},
+                                            std::pair{"centre_line", centre_line_column_names}}) {
+            const Columns other = window_columns(series, first, columns);
+            summary["stress_conventions"][name] = tensor_entry(other, stress_unit);
+            summary["stress_conventions"][name]["anisotropy"] = described(jackknife(other, measured_anisotropy));
+        }
     summary["nematic_order"] = described(average_of("nematic_order"), "");
     summary["director"] = mean_director(window_columns(series, first, order_tensor_column_names));
     summary["anisotropy"] = described(jackknife(stress, measured_anisotropy));

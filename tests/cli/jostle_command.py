@@ -155,6 +155,11 @@ def column(path, name):
     return [float(line.split(",")[place]) for line in lines[1:]]
 
 
+def mean(folder, name):
+    values = column(folder / "series.csv", name)
+    return sum(values) / len(values)
+
+
 def checkpoint_step(folder):
     """The step of the checkpoint, read by its format: 24 bytes of header, the scene's length (u64), the scene, u64."""
     content = (folder / "checkpoint").read_bytes()

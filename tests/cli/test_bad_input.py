@@ -45,6 +45,8 @@ VALUES = [
     ("time", "production", 0.001, "is shorter than one step", "at least time.step = 0.02"),
     ("time", "rms_step", 0.03, "is given beside time.step", "one of the two"),
     ("rods", "axis", [1, 0, 0], "is not used with rods.start", 'Set start = "aligned"'),
+    ("contact", "model", "soft", "is not one of the words", '"wca"'),
+    ("contact", "energy", 1.0, 'is not used with contact.model = "hard"', 'Set model = "wca"'),
 ]
 
 

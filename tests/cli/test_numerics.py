@@ -8,11 +8,12 @@ from jostle_command import (DONE, NUMERICS, RODS, changed, checkpoint_step, colu
                             run, snapshot, with_steps, write_scene)
 
 TIGHT = {"solver": {"max_iterations": 1}}
-# 125 spheres that touch in rows through a periodic box: there is no room for the shift of the gaps, nor for any push.
+# 125 spheres in rows through a periodic box that is a little too small for them: there is no room for any push.
 JAMMED = {
     "seed": 1,
-    "box": {"edges": [5.0, 5.0, 5.0]},
-    "rods": {"count": 125, "length": 0.0, "start": "lattice"},
+    "box": {"edges": [4.998, 4.998, 4.998]},
+    "rods": {"length": 0.0, "start": "file", "file": "spheres.csv"},
+    "motion": {"brownian": False},
     "time": {"step": 0.01, "equilibration": 0.0, "production": 1.0},
     "output": {"series_every": 1},
 }
@@ -80,11 +81,14 @@ def test_failure_after_sound_steps(tmp_path):
 
 
 def test_infeasible(tmp_path):
+    places = [0.9996 * (k + 0.5) for k in range(5)]
+    rows = [f"{x},{y},{z},1,0,0" for x in places for y in places for z in places]
+    (tmp_path / "spheres.csv").write_text("\n".join(["x,y,z,nx,ny,nz", *rows]) + "\n")
     write_scene(tmp_path, JAMMED)
     record = require_failure(tmp_path, "step 0 failed: the contact problem has no solution", "lower volume fraction")
     require_contacts(record)
     assert record["contacts"] >= 375
-    assert record["volume_fraction"] == pytest.approx(3.141592653589793 / 6)
+    assert record["volume_fraction"] == pytest.approx(3.141592653589793 / 6 / 0.9996**3)
 
 
 def test_overlap_limit(tmp_path):

@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from jostle_command import DONE, RODS, SPHERES, changed, column, finish, run, with_steps, write_scene
+from jostle_command import DONE, RODS, SPHERES, changed, column, finish, mean, run, with_steps, write_scene
 from read_h5md import read as read_h5md
 
 SERIES = (["step", "time", "N", "phi", "Z", "pressure", "pressure_collision"]
@@ -62,11 +62,6 @@ def complete(folder, scene):
     return result, summary
 
 
-def mean(folder, name):
-    values = column(folder / "series.csv", name)
-    return sum(values) / len(values)
-
-
 def test_summary_is_that_of_the_series(tmp_path):
     """Without equilibration the means are those of all rows; and the series keeps its own relations."""
     folder, summary = complete(tmp_path, with_steps(SPHERES, 1600))
@@ -90,7 +85,8 @@ def test_summary_is_that_of_the_series(tmp_path):
         for ab, ba in (("xy", "yx"), ("xz", "zx"), ("yz", "zy")):
             assert lines[f"stress_{ab}"][row] == pytest.approx(lines[f"stress_{ba}"][row], rel=1e-9, abs=1e-12)
         assert 0 < lines["active_contacts"][row] <= lines["contacts"][row] and lines["iterations"][row] >= 1
-        assert lines["residual"][row] <= 1e-5 and lines["max_overlap"][row] <= 1e-3
+        assert lines["residual"][row] <= 1e-5
+        assert lines["max_overlap"][row] <= 0.01  # a third of the rms step of two spheres (theory, section 3)
 
 
 def test_too_short_for_an_error_bar(tmp_path):

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "jostle/contact/wca_forces.hpp"
 #include "jostle/mobility/drag.hpp"
 #include "jostle/mobility/drag_mobility.hpp"
 #include "jostle/motion/brownian_motion.hpp"
@@ -47,6 +48,12 @@ Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock) 
     settings.time_step = time_step(scene, *mobility, rods);
     settings.brownian_correction = scene.contact.brownian_correction;
     settings.range = scene.contact.range.value_or(0.0);
+    if (scene.contact.model == ContactModel::wca) {
+        settings.brownian_correction = false;
+        settings.wca_energy = scene.contact.energy.value_or(scene.fluid.kT);
+        settings.range = (wca_range - 1.0) * *std::max_element(rods.diameter.begin(), rods.diameter.end());
+    }
+    settings.stress_conventions = scene.output.stress_conventions;
     settings.method = scene.solver.method;
     const bool paper = scene.solver.residual == ResidualKind::paper;
     settings.lcp.residual = paper ? LcpResidual::paper : LcpResidual::length;

@@ -8,11 +8,12 @@ namespace jostle {
 
 /// A = D^T M D (theory, eq. 2.4): gap velocities caused by contact forces. The place where contact and mobility meet.
 ///
-/// Never formed: one application is a gather over the rods that have contacts, the mobility, and a pass over contacts.
-/// Holds references.
+/// With a compliance kappa it is D^T M D + kappa diag(D^T M D) (theory, eq. 3.5): positive definite. Never formed: one
+/// application is a gather over the rods that have contacts, the mobility, and a pass over contacts. Holds references.
 class DelassusOperator final : public LinearOperator {
 public:
-    DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods, const Mobility& mobility);
+    DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods, const Mobility& mobility,
+                     double compliance = 0.0);
 
     /// Takes in what the contact matrix has been extended by.
     void extend();
@@ -20,8 +21,13 @@ public:
     std::size_t size() const override { return contact_matrix_.size(); }
     void apply(std::span<const double> gamma, std::span<double> rates) const override;
 
-    /// A_ll of each rod's own mobility (for a mobility that couples rods, the local part of it).
+    /// A_ll of each rod's own mobility (for a mobility that couples rods, the local part of it), compliance included.
     std::span<const double> diagonal() const override { return diagonal_; }
+
+    /// (D^T M D)_ll: how fast a force on contact l alone opens its gap.
+    double gap_mobility(std::size_t l) const { return diagonal_[l] / (1.0 + compliance_); }
+    /// kappa (D^T M D)_ll
+    double compliance(std::size_t l) const { return compliance_ * gap_mobility(l); }
 
     const ContactMatrix& contact_matrix() const { return contact_matrix_; }
 
@@ -33,6 +39,10 @@ public:
     std::span<const Rod> rods() const { return rods_; }  ///< (places)
     bool couples_rods() const { return mobility_.couples_rods(); }
 
+    /// A gamma, from M D gamma.
+    void rates(std::span<const ContactVelocity> velocities, std::span<const double> gamma,
+               std::span<double> rates) const;
+
     /// D gamma and M D gamma, one a place.
     void velocities(std::span<const double> gamma, std::span<ContactForce> forces,
                     std::span<ContactVelocity> velocities) const;
@@ -43,6 +53,7 @@ private:
     const ContactMatrix& contact_matrix_;
     const Rods& all_rods_;
     const Mobility& mobility_;
+    double compliance_;
     std::vector<Rod> rods_;
     std::vector<double> diagonal_;
     mutable std::vector<ContactForce> forces_;         ///< (places) scratch

@@ -62,6 +62,7 @@ template <class Real>
 struct Point {
     Wide<Real> column_i, column_j, answer_i, answer_j;
     Real b = 0, gamma = 0;
+    Real compliance = 0;         ///< by which a force gives way, a part of A_ll
     Real diagonal = 0;           ///< A_ll
     Real inverse_diagonal = 0;   ///< 0 where no force can open the gap
     std::uint32_t i = 0, j = 0;  ///< places
@@ -69,7 +70,7 @@ struct Point {
 
     template <class Velocity>
     Real gap_velocity(const Wide<Velocity>* velocities) const {
-        return b + sum_of_products(column_i, velocities[i], column_j, velocities[j]);
+        return b + compliance * gamma + sum_of_products(column_i, velocities[i], column_j, velocities[j]);
     }
     template <class Velocity>
     void push(Real change, Wide<Velocity>* velocities) {
@@ -309,10 +310,12 @@ private:
                     const auto [first, count] = first_and_count;
                     pair.count = count;
                     for (std::uint32_t a = 0; a < count; ++a) pair.point[a] = point_of<double>(first + a);
-                    for (std::uint32_t a = 0; a < count; ++a)
+                    for (std::uint32_t a = 0; a < count; ++a) {
                         for (std::uint32_t c = 0; c < count; ++c)
                             pair.matrix[a][c] = sum_of_products(pair.point[a].column_i, pair.point[c].answer_i,
                                                                 pair.point[a].column_j, pair.point[c].answer_j);
+                        pair.matrix[a][a] += pair.point[a].compliance;
+                    }
                 });
         }
     }
@@ -345,6 +348,7 @@ private:
         point.answer_j = answer(j, column.j);
         point.b = static_cast<PointReal>(b_[l]);
         point.gamma = static_cast<PointReal>(start_[l]);
+        point.compliance = static_cast<PointReal>(matrix_.compliance(l));
         point.diagonal = static_cast<PointReal>(diagonal);
         point.inverse_diagonal = static_cast<PointReal>(diagonal > 0.0 ? 1.0 / diagonal : 0.0);
         point.i = i;
@@ -455,7 +459,7 @@ public:
         sweeper_.refresh(solution_);
         LcpResult result;
         result.velocity.resize(problem_.matrix.size());
-        problem_.matrix.contact_matrix().apply_transpose(solution_.velocities, result.velocity);
+        problem_.matrix.rates(solution_.velocities, solution_.gamma, result.velocity);
         parallel_for(result.velocity.size(), [&](std::size_t l) { result.velocity[l] += problem_.constant[l]; });
         result.solution.swap(solution_.gamma);
         result.residual = lcp_residual(problem_.lcp(), settings_.residual, result.solution, result.velocity);

@@ -12,6 +12,7 @@ namespace jostle {
 enum class UnitSystem { reduced, micro };
 enum class StartKind { random, aligned, lattice, file };
 enum class MobilityModel { slender_body, finite_aspect_ratio };
+enum class ContactModel { hard, wca };
 enum class SolverMethod { automatic, projected_sor, bbpgd, adaptive_bb, apgd, minimum_map_newton };
 enum class StepRule { bb1, bb2, alternating };
 enum class ResidualKind { length, paper };
@@ -68,7 +69,9 @@ struct Scene {
     } motion;
 
     struct ContactTable {
-        bool brownian_correction = true;  // shift and true gap after the known motion (theory, eq. 3.3)
+        ContactModel model = ContactModel::hard;  // "hard": the contact problem; "wca": a soft potential
+        std::optional<double> energy;             // of the potential; "auto" (empty): kT
+        bool brownian_correction = true;          // shift, compliance, true gap after the known motion (theory, 3)
         std::optional<double> range;  // "auto" (empty): from the step; a length: at least all pairs with a smaller gap
         double overlap_limit = 0.2;   // in D; a larger overlap after a step ends the run (exit 3)
         bool operator==(const ContactTable&) const = default;
@@ -96,6 +99,7 @@ struct Scene {
         std::uint64_t trajectory_every = 0;     // steps a frame; 0: none
         std::uint64_t checkpoint_every = 1000;  // steps
         bool contacts = false;                  // write the active contacts of every series step
+        bool stress_conventions = false;        // other conventions of the collision stress, too
         bool operator==(const Output&) const = default;
     } output;
 

@@ -82,6 +82,8 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("mobility", "model", scene.mobility.model, Plain{});
     visit("motion", "brownian", scene.motion.brownian, Plain{});
     visit("motion", "self_propulsion", scene.motion.self_propulsion, Quantity{dim::speed, zero_or_positive});
+    visit("contact", "model", scene.contact.model, Plain{});
+    visit("contact", "energy", scene.contact.energy, Quantity{dim::energy, positive, true});
     visit("contact", "brownian_correction", scene.contact.brownian_correction, Plain{});
     visit("contact", "range", scene.contact.range, Quantity{dim::length, positive, true});
     visit("contact", "overlap_limit", scene.contact.overlap_limit, Quantity{dim::none, {0.0, 1.0, false, false}});
@@ -98,6 +100,7 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("output", "trajectory_every", scene.output.trajectory_every, Count{0});
     visit("output", "checkpoint_every", scene.output.checkpoint_every, Count{1});
     visit("output", "contacts", scene.output.contacts, Plain{});
+    visit("output", "stress_conventions", scene.output.stress_conventions, Plain{});
 }
 
 /// The words of a scene for each kind of choice.
@@ -114,6 +117,10 @@ constexpr auto words(StartKind) {
 constexpr auto words(MobilityModel) {
     return std::to_array<std::pair<std::string_view, MobilityModel>>(
         {{"slender_body", MobilityModel::slender_body}, {"finite_aspect_ratio", MobilityModel::finite_aspect_ratio}});
+}
+constexpr auto words(ContactModel) {
+    return std::to_array<std::pair<std::string_view, ContactModel>>(
+        {{"hard", ContactModel::hard}, {"wca", ContactModel::wca}});
 }
 constexpr auto words(SolverMethod) {
     return std::to_array<std::pair<std::string_view, SolverMethod>>(

@@ -21,11 +21,14 @@ struct Clock {
 struct SimulationSettings {
     std::uint64_t seed = 1;
     double time_step = 0.0;
-    double kT = 0.0;                  ///< of the Brownian motion; 0 where there is none
-    bool brownian_correction = true;  ///< shift and true gap (theory, eq. 3.3), moments of the stress at touching
-    double range = 0.0;               ///< contacts with a smaller gap are always taken; 0: as the step demands
+    double kT = 0.0;  ///< of the Brownian motion; 0 where there is none
+    bool brownian_correction =
+        true;                 ///< shift, compliance, true gap (theory, section 3); moments of the stress at touching
+    double wca_energy = 0.0;  ///< of the potential that rods repel each other by; 0: they are hard
+    double range = 0.0;       ///< contacts with a smaller gap are always taken; 0: as the step demands
     SolverMethod method = SolverMethod::automatic;
-    LcpSettings lcp;  ///< tolerance as a length
+    LcpSettings lcp;                  ///< tolerance as a length
+    bool stress_conventions = false;  ///< other conventions of the stress are measured, too
 };
 
 /// Rods in a box, and the step that moves them.
@@ -57,6 +60,7 @@ private:
     void find_known_velocity();
     void find_contacts(StepReport& report);
     void solve_contacts(StepReport& report);
+    void repel(StepReport& report);
     void measure_stress(StepReport& report);
     void advance();
 

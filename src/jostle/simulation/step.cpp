@@ -3,6 +3,7 @@
 #include <chrono>
 #include <tuple>
 
+#include "jostle/contact/wca_forces.hpp"
 #include "jostle/math/rotation.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/simulation/delassus_operator.hpp"
@@ -43,7 +44,7 @@ StepReport Simulation::step() {
     timer.finish(StepPhase::known_velocity);
     find_contacts(report);
     timer.finish(StepPhase::find_contacts);
-    solve_contacts(report);
+    settings_.wca_energy > 0.0 ? repel(report) : solve_contacts(report);
     timer.finish(StepPhase::solve_contacts);
     if (report.status != LcpStatus::converged) {
         pushes_.assign(rods_.size(), {});
@@ -78,7 +79,8 @@ void Simulation::solve_contacts(StepReport& report) {
     using Include = ContactMatrix::Include;
     ContactMatrix contact_matrix(contacts_, rods_.size(),
                                  mobility_->couples_rods() ? Include::all_rods : Include::rods_with_contacts);
-    DelassusOperator matrix(contact_matrix, rods_, *mobility_);
+    const double compliance = settings_.brownian_correction && settings_.kT > 0.0 ? contact_compliance : 0.0;
+    DelassusOperator matrix(contact_matrix, rods_, *mobility_, compliance);
     std::vector<double> b;
     extend_gap_velocities(matrix, b);
     const auto add_missed = [&](const ContactSolution& solution, bool final) {
@@ -97,6 +99,17 @@ void Simulation::solve_contacts(StepReport& report) {
     report.contacts = contacts_.size();
 }
 
+// Not in the paper: soft rods. The forces follow from the places before the step, and nothing has to be solved.
+void Simulation::repel(StepReport& report) {
+    const ContactMatrix contact_matrix(contacts_, rods_.size());
+    const DelassusOperator matrix(contact_matrix, rods_, *mobility_);
+    solution_ = {};
+    solution_.resize(contact_matrix);
+    solution_.gamma = wca_forces(contacts_, rods_, settings_.wca_energy);
+    matrix.velocities(solution_.gamma, solution_.forces, solution_.velocities);
+    report.contacts = contacts_.size();
+}
+
 // b of the contact problem (theory, eq. 3.3): the gap after the known motion, shifted, over dt; or as in the paper,
 // b = Phi/dt + D^T U_known.
 void Simulation::extend_gap_velocities(const DelassusOperator& matrix, std::vector<double>& b) const {
@@ -107,7 +120,7 @@ void Simulation::extend_gap_velocities(const DelassusOperator& matrix, std::vect
         const std::size_t l = known + k;
         const Contact& contact = contacts_.contact[l];
         if (settings_.brownian_correction) {
-            b[l] = (contact.gap_after - brownian_shift(settings_.kT, dt, matrix.diagonal()[l])) / dt;
+            b[l] = (contact.gap_after - brownian_shift(settings_.kT, dt, matrix.gap_mobility(l))) / dt;
             return;
         }
         const auto point_velocity = [&](std::uint32_t row, double arm) {
@@ -161,6 +174,10 @@ void Simulation::measure_stress(StepReport& report) {
     });
     report.collision_virial =
         sum_of_pair_stresses(contacts_, solution_.gamma, rods_, {solution_.rods, torque}, distance);
+    if (settings_.stress_conventions) {
+        report.centre_of_mass_virial = centre_of_mass_virial(contacts_, solution_.gamma, rods_, distance);
+        report.centre_line_virial = centre_line_virial(contacts_, solution_.gamma, rods_, distance);
+    }
     report.active_contacts = parallel_sum<std::size_t>(
         solution_.gamma.size(), [&](std::size_t l) { return solution_.gamma[l] > 0.0 ? std::size_t{1} : 0; });
 }

@@ -100,6 +100,8 @@ void check_unused(const Scene& scene) {
         std::string value;
         if (unused.key == "rods.file") value = scene.rods.file;
         if (unused.key == "rods.axis" && !(scene.rods.axis == defaults.rods.axis)) value = text(scene.rods.axis);
+        if (unused.key == "contact.energy" && scene.contact.energy) value = text(*scene.contact.energy);
+        if (unused.key == "contact.range" && scene.contact.range) value = text(*scene.contact.range);
         if (unused.key == "box.shape" && !(scene.box.shape == defaults.box.shape)) value = text(scene.box.shape);
         if (!value.empty()) refuse(unused.key, value, unused.reason, "", unused.suggestion);
     }
@@ -158,6 +160,12 @@ void check_mobility(const Scene& scene) {
 }
 
 void check_solver(const Scene& scene) {
+    if (scene.contact.model == ContactModel::wca) {
+        if (!scene.contact.energy && scene.fluid.kT == 0.0)
+            refuse("contact.energy", "", "is missing, and fluid.kT = 0, which would stand for it", "an energy above 0",
+                   "Add energy = 1.0 under [contact]");
+        return;
+    }
     if (scene.solver.residual == ResidualKind::length && scene.solver.tolerance >= scene.contact.overlap_limit)
         refuse("contact.overlap_limit", text(scene.contact.overlap_limit),
                fmt::format("is not larger than the overlap that the solver leaves, solver.tolerance = {}",
@@ -272,6 +280,13 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
     if (start != StartKind::file) unused.push_back({"rods.file", with, "Set start = \"file\", or remove file"});
     if (start != StartKind::aligned && start != StartKind::lattice)
         unused.push_back({"rods.axis", with, "Set start = \"aligned\", or remove axis"});
+    const bool soft = scene.contact.model == ContactModel::wca;
+    const std::string with_model = fmt::format("is not used with contact.model = \"{}\"", word_of(scene.contact.model));
+    if (!soft) unused.push_back({"contact.energy", with_model, "Set model = \"wca\", or remove energy"});
+    if (soft)
+        for (const char* key : {"contact.brownian_correction", "contact.range", "solver.method", "solver.step_rule",
+                                "solver.residual", "solver.tolerance", "solver.max_iterations"})
+            unused.push_back({key, with_model + ": there is no contact problem", "Remove it"});
     if (start == StartKind::file && scene.rods.count == 0)
         unused.push_back({"rods.count", with + ": the file tells", "Remove count"});
     return unused;

@@ -18,6 +18,23 @@ void require_rows(const char* key, std::size_t rows, std::size_t needed, const c
                       .place = {}});
 }
 
+/// From the contact's point on the centre line of rod i to that of rod j.
+Vec3 between_centre_lines(const Contact& contact, const Rods& rods, ContactDistance distance) {
+    const double radii = 0.5 * (rods.diameter[contact.i] + rods.diameter[contact.j]);
+    return (distance == ContactDistance::touching ? radii : radii + contact.gap) * contact.normal;
+}
+
+/// Sum over contacts of separation F.
+template <class Separation>
+Mat3 virial(const Contacts& contacts, std::span<const double> gamma, Separation&& separation) {
+    require_rows("gamma", gamma.size(), contacts.size(), "contact");
+    return parallel_sum<Mat3>(contacts.size(), [&](std::size_t l) {
+        if (gamma[l] == 0.0) return Mat3{};
+        const Contact& contact = contacts.contact[l];
+        return outer(separation(contact), gamma[l] * contact.normal);
+    });
+}
+
 }  // namespace
 
 Mat3 sum_of_pair_stresses(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
@@ -27,16 +44,16 @@ Mat3 sum_of_pair_stresses(const Contacts& contacts, std::span<const double> gamm
 
 Mat3 centre_of_mass_virial(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
                            ContactDistance distance) {
-    require_rows("gamma", gamma.size(), contacts.size(), "contact");
-    return parallel_sum<Mat3>(contacts.size(), [&](std::size_t l) {
-        if (gamma[l] == 0.0) return Mat3{};
-        const Contact& contact = contacts.contact[l];
-        const double radii = 0.5 * (rods.diameter[contact.i] + rods.diameter[contact.j]);
-        const double apart = distance == ContactDistance::touching ? radii : radii + contact.gap;
-        const Vec3 separation =
-            contact.arm_i * rods.axis[contact.i] + apart * contact.normal - contact.arm_j * rods.axis[contact.j];
-        return outer(separation, gamma[l] * contact.normal);
+    return virial(contacts, gamma, [&](const Contact& contact) {
+        return contact.arm_i * rods.axis[contact.i] + between_centre_lines(contact, rods, distance) -
+               contact.arm_j * rods.axis[contact.j];
     });
+}
+
+Mat3 centre_line_virial(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
+                        ContactDistance distance) {
+    return virial(contacts, gamma,
+                  [&](const Contact& contact) { return between_centre_lines(contact, rods, distance); });
 }
 
 Mat3 geometric_stress(const Rods& rods, const RodTorques& torques) {

@@ -41,6 +41,11 @@ Mat3 sum_of_pair_stresses(const Contacts& contacts, std::span<const double> gamm
 Mat3 centre_of_mass_virial(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
                            ContactDistance distance = ContactDistance::touching);
 
+/// Sum over contacts of (r_j + a_j - r_i - a_i) F = distance normal F, from centre line to centre line: the "centre
+/// line" stress (Snook et al. 2014), for comparison. The rest as above.
+Mat3 centre_line_virial(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
+                        ContactDistance distance = ContactDistance::touching);
+
 /// Sum over rods of the geometric stress under their net collision torques, about their centres.
 ///
 /// Throws InputError if there is not one torque a row.

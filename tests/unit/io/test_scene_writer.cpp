@@ -29,12 +29,9 @@ public:
         scene.motion = {chance(), chance() ? number(1e-5, 1e5) : 0.0};
         const bool slender = chance() && scene.rods.length / scene.rods.diameter > 0.9;
         scene.mobility.model = slender ? MobilityModel::slender_body : MobilityModel::finite_aspect_ratio;
-        scene.contact = {chance(), std::nullopt, number(0.1, 0.99)};
-        if (chance()) scene.contact.range = number(1e-9, 1e9);
-        scene.solver = {chance() ? SolverMethod::automatic : SolverMethod::bbpgd, static_cast<StepRule>(random_() % 3),
-                        static_cast<ResidualKind>(random_() % 2), number(1e-12, 0.09), 1 + random_() % 1000000};
+        draw_contact(scene);
         draw_time(scene);
-        scene.output = {1 + random_() % 1000, random_() % 1000, 1 + (random_() >> 2), chance()};
+        scene.output = {1 + random_() % 1000, random_() % 1000, 1 + (random_() >> 2), chance(), chance()};
         return scene;
     }
 
@@ -55,6 +52,19 @@ private:
         std::string drawn;
         for (std::uint64_t k = random_() % 12; k > 0; --k) drawn += letters[random_() % std::size(letters)];
         return drawn;
+    }
+
+    void draw_contact(Scene& scene) {
+        scene.contact.overlap_limit = number(0.1, 0.99);
+        if (chance()) {
+            scene.contact.model = ContactModel::wca;
+            if (scene.fluid.kT == 0.0 || chance()) scene.contact.energy = number(1e-3, 1e3);
+            return;
+        }
+        scene.contact.brownian_correction = chance();
+        if (chance()) scene.contact.range = number(1e-9, 1e9);
+        scene.solver = {chance() ? SolverMethod::automatic : SolverMethod::bbpgd, static_cast<StepRule>(random_() % 3),
+                        static_cast<ResidualKind>(random_() % 2), number(1e-12, 0.09), 1 + random_() % 1000000};
     }
 
     void draw_rods(Scene& scene) {

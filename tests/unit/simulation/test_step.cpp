@@ -117,11 +117,6 @@ TEST_CASE("no pair overlaps after any step, against brute force: rods and sphere
     }
 }
 
-TEST_CASE("the correction vanishes without thermal motion, and shifts by c sigma with it") {
-    CHECK(brownian_shift(0.0, 0.1, 2.0) == 0.0);
-    CHECK(brownian_shift(1.0, 0.5, 1.0) == doctest::Approx(0.5825971579390107));
-}
-
 TEST_CASE("a failed step leaves rods and clock as they were") {
     Scene scene = head_on();
     scene.solver.max_iterations = 1;

@@ -1,0 +1,48 @@
+"""Choices of a scene that change what is computed: soft rods, and other conventions of the stress."""
+
+import json
+
+import pytest
+
+from jostle_command import DONE, RODS, changed, column, finish, mean, run, with_steps, write_scene
+
+SOFT = {"contact": {"model": "wca", "energy": 1.0}, "time": {"step": 0.0005}, "output": {"series_every": 1}}
+
+
+def test_soft_rods(tmp_path):
+    """No contact problem is solved, rods overlap a little, and the run resumes bit for bit."""
+    write_scene(tmp_path / "one", with_steps(changed(RODS, **SOFT), 400))
+    folder = finish(tmp_path / "one")
+    assert set(column(folder / "series.csv", "iterations")) == {0.0}
+    assert 0.0 < max(column(folder / "series.csv", "max_overlap")) < 0.2
+    assert mean(folder, "Z") > 1.5
+    write_scene(tmp_path / "hard", with_steps(changed(RODS, time={"step": 0.0005}), 400))
+    assert mean(finish(tmp_path / "hard"), "iterations") >= 1.0
+
+
+def test_soft_rods_need_an_energy(tmp_path):
+    write_scene(tmp_path, changed(RODS, contact={"model": "wca"}, fluid={"kT": 0.0}))
+    result = run(tmp_path)
+    assert result.returncode == 2 and "contact.energy" in result.stderr and "fluid.kT = 0" in result.stderr
+
+
+def test_stress_conventions(tmp_path):
+    """All have the same trace up to the moments along the rods; only the first is what the pressure is made of."""
+    write_scene(tmp_path, with_steps(changed(RODS, output={"stress_conventions": True}), 400))
+    folder = finish(tmp_path)
+    of_summary = json.loads((folder / "summary.json").read_text())["stress_conventions"]
+    for convention in ("centre_of_mass", "centre_line"):
+        tensor = of_summary[convention]["mean"]
+        assert len(tensor) == 3 and "anisotropy" in of_summary[convention]
+    rows = {name: column(folder / "series.csv", name)
+            for name in [f"{kind}_{ab}" for kind in ("stress", "centre_of_mass", "centre_line")
+                         for ab in ("xx", "yy", "zz", "xy", "yx")]}
+    for row in range(len(rows["stress_xx"])):
+        trace = {kind: sum(rows[f"{kind}_{aa}"][row] for aa in ("xx", "yy", "zz"))
+                 for kind in ("stress", "centre_of_mass", "centre_line")}
+        # The geometric stress is traceless; from centre line to centre line the distance is the diameter.
+        assert trace["centre_of_mass"] == pytest.approx(trace["stress"], rel=1e-9)
+        assert 0.0 < trace["centre_line"] < trace["stress"]
+        assert rows["centre_line_xy"][row] == pytest.approx(rows["centre_line_yx"][row], rel=1e-9, abs=1e-12)
+    assert any(abs(rows["centre_of_mass_xy"][row] - rows["centre_of_mass_yx"][row]) > 1e-6
+               for row in range(len(rows["stress_xx"])))
