@@ -201,9 +201,8 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
 
 std::string summary_text(const Json& summary) {
     std::string text;
-    const auto line = [&](const char* key, const char* name) {
-        if (!summary.contains(key)) return;
-        const Json& entry = summary[key];
+    const auto line = [&](const Json& entry, const char* name) {
+        if (entry.is_null()) return;
         const std::string unit = entry.value("unit", "");
         const std::string mean =
             entry["mean"].is_null() ? "not defined" : fmt::format("{:.5g}", entry["mean"].get<double>());
@@ -214,11 +213,14 @@ std::string summary_text(const Json& summary) {
             text += fmt::format("{:20} = {} +- {:.2g} {} (n_eff {:.0f})\n", name, mean,
                                 entry["standard_error"].get<double>(), unit, entry["n_eff"].get<double>());
     };
-    line("Z", "Z");
-    line("pressure", "pressure");
-    line("pressure_collision", "collision pressure");
-    line("nematic_order", "nematic order S");
-    line("anisotropy", "stress anisotropy");
+    const auto entry = [&](const char* key) { return summary.value(key, Json()); };
+    line(entry("Z"), "Z");
+    line(entry("pressure"), "pressure");
+    line(entry("pressure_collision"), "collision pressure");
+    line(entry("nematic_order"), "nematic order S");
+    line(entry("anisotropy"), "stress anisotropy");
+    if (summary["oracles"].contains("anisotropy"))
+        line(summary["oracles"]["anisotropy"]["predicted"], "  as equilibrium has");
     text +=
         fmt::format("{:20} = {:.4g}{}\n", "equilibration time", summary["equilibration_time"].get<double>(),
                     summary["equilibrated"].get<bool>() ? "" : "   WARNING: equilibrium was not reached; run longer");
@@ -227,7 +229,8 @@ std::string summary_text(const Json& summary) {
         const Json& oracle = summary["oracles"]["anisotropy"];
         if (oracle["agree"] == Json(false))
             text += fmt::format(
-                "WARNING: the stress anisotropy differs from the equilibrium prediction by {:.3g} +- {:.2g}\n",
+                "WARNING: the stress anisotropy differs from that of equilibrium by {:.3g} +- {:.2g}: the run may be too "
+                "short, its steps too long, or something pushes the rods\n",
                 oracle["difference"].get<double>(), oracle["standard_error"].get<double>());
     }
     return text;

@@ -25,7 +25,7 @@ import numpy
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-REFERENCE = ROOT / "studies" / "reference" / "rods_monte_carlo.csv"
+REFERENCE = ROOT / "studies" / "reference" / "monte_carlo.csv"
 VOLUME_FRACTIONS = (0.1, 0.3)
 LENGTH = 5.0  # of a rod, in D
 RMS_STEP = 0.03  # of jostle, in D

@@ -1,0 +1,114 @@
+"""Three conventions of the collision stress
+
+What does each convention give for the same forces? Rigid body (theory, eq. 1.1; what jostle reports), centre of mass to centre of mass, and centre line to
+centre line (Snook et al. 2014). Measured are the collision pressure and the normal stress difference along less across the mean direction, over n kT. Equilibrium
+demands 3 B S of the first (theory, eq. 1.8), because the second is isotropic.
+"""
+
+import math
+
+import numpy
+
+import figures
+import reference_values
+from report import with_error
+from runs import Run
+
+STATES = ((5, 0.30, "random"), (5, 0.44, "aligned"), (5, 0.48, "aligned"), (2, 0.40, "random"))  # L/D, phi, start
+CONVENTIONS = {"rigid body": "stress", "centre of mass": "centre_of_mass", "centre line": "centre_line"}
+BLOCKS = 20
+
+
+def runs(quick):
+    return [Run(name=f"L{beta}_phi{phi:.2f}",
+                scene={"seed": 4, "box": {"volume_fraction": phi},
+                       "rods": {"count": 300 if quick else 1000, "length": float(beta), "start": start},
+                       "time": {"rms_step": 0.05}, "solver": {"tolerance": 1e-4},
+                       "output": {"stress_conventions": True}},
+                equilibration=4000 if quick else 20000,
+                production=10000 if quick else 60000)
+            for beta, phi, start in (STATES[1:2] if quick else STATES)]
+
+
+def blocked(values):
+    """Mean and standard error from a few long blocks."""
+    means = numpy.array([block.mean() for block in numpy.array_split(values, BLOCKS)])
+    return means.mean(), means.std(ddof=1) / math.sqrt(BLOCKS)
+
+
+class Tensor:
+    """One convention of the stress of a run, over n kT, by rows of the series."""
+
+    def __init__(self, run, series, convention):
+        names = [f"{CONVENTIONS[convention]}_{a}{b}" for a in "xyz" for b in "xyz"]
+        kinetic = run.summary["stress_kinetic"]["mean"]
+        self.rows = numpy.array([series[name] for name in names]).T.reshape(-1, 3, 3) / kinetic
+
+    def pressure(self):
+        return blocked(numpy.trace(self.rows, axis1=1, axis2=2) / 3)
+
+    def normal_difference(self, director):
+        along = numpy.einsum("kab,a,b->k", self.rows, director, director)
+        return blocked(along - (numpy.trace(self.rows, axis1=1, axis2=2) - along) / 2)
+
+    def asymmetry(self):
+        """Largest antisymmetric element of a row, and of the mean, both relative to the trace."""
+        odd = self.rows - self.rows.transpose(0, 2, 1)
+        trace = numpy.trace(self.rows.mean(axis=0))
+        return numpy.abs(odd).max() / trace, numpy.abs(odd.mean(axis=0)).max() / trace
+
+
+def evaluate(report, runs_by_name, quick):
+    rows, numbers, bars = [], [], []
+    for run in runs_by_name.values():
+        beta, phi = run.scene["rods"]["length"], run.scene["box"]["volume_fraction"]
+        state = f"L/D = {beta:g}, phi = {phi:.2f}"
+        series = run.series()
+        director = numpy.array(run.summary["director"])
+        tensors = {convention: Tensor(run, series, convention) for convention in CONVENTIONS}
+        order_along = sum(series[f"order_{a}{b}"] * director["xyz".index(a)] * director["xyz".index(b)] * (1 if a == b else 2)
+                          for a, b in ("xx", "xy", "xz", "yy", "yz", "zz"))
+        predicted = tuple(3 * reference_values.moment_anisotropy(beta) * value for value in blocked(order_along))
+        differences = {convention: tensor.normal_difference(director) for convention, tensor in tensors.items()}
+        for convention, tensor in tensors.items():
+            pressure, difference = tensor.pressure(), differences[convention]
+            of_row, of_mean = tensor.asymmetry()
+            rows.append([f"{beta:g}", f"{phi:.2f}", convention, with_error(*pressure), with_error(*difference),
+                         f"{predicted[0]:.3f}" if convention == "rigid body" else "", f"{of_row:.1e}", f"{of_mean:.1e}"])
+            numbers.append([beta, phi, convention, *pressure, *difference, predicted[0], of_row, of_mean])
+            bars.append((state, convention, pressure, difference))
+        total, centre = tensors["rigid body"], tensors["centre of mass"]
+        trace_apart = numpy.abs(numpy.trace(total.rows - centre.rows, axis1=1, axis2=2)).max()
+        report.require(f"{state}: difference of the traces of rigid body and centre of mass, largest of any row",
+                       trace_apart, upper=1e-9 * abs(total.pressure()[0]))
+        report.require(f"{state}: asymmetry of the rigid-body stress, largest of any row", total.asymmetry()[0], upper=1e-9)
+        report.require(f"{state}: asymmetry of the centre-line stress, largest of any row",
+                       tensors["centre line"].asymmetry()[0], upper=1e-9)
+        if abs(predicted[0]) > 0.5:  # a nematic: elsewhere the mean order is only what rotation has not yet forgotten
+            report.compare(f"{state}: normal stress difference, rigid body, against 3 B S", differences["rigid body"],
+                           predicted, 0.01, errors=3)
+        report.compare(f"{state}: normal stress difference, centre of mass, against 0", differences["centre of mass"],
+                       (0.0, 0.0), 0.0, errors=3)
+    report.table("Collision pressure and normal stress difference over n kT; asymmetry relative to the trace, of the worst row and of the mean.",
+                 ["L/D", "phi", "convention", "pressure", "normal difference", "3 B S", "asymmetry, row", "mean"], rows)
+    report.data(["L_over_D", "phi", "convention", "pressure", "pressure_error", "normal_difference",
+                 "normal_difference_error", "predicted_normal_difference", "asymmetry_row", "asymmetry_mean"], numbers)
+    report.remark("Rigid body and centre of mass have the same pressure, row by row: the geometric stress has no trace. The centre-of-mass stress is "
+                  "isotropic even in the nematic, so all of the normal stress difference is geometric; row by row it is not symmetric. The centre-line "
+                  "stress is symmetric, but leaves out of the pressure what forces along the axes carry between the centres.")
+    draw(report, bars)
+
+
+def draw(report, bars):
+    figure, panels = figures.axes(1, 2, size=(8.6, 3.6))
+    states = list(dict.fromkeys(state for state, *_ in bars))
+    for panel, entry, label in ((panels[0], 2, "collision pressure/(n kT)"), (panels[1], 3, "normal stress difference/(n kT)")):
+        for number, convention in enumerate(CONVENTIONS):
+            values = [bar[entry] for bar in bars if bar[1] == convention]
+            places = [k + 0.27 * (number - 1) for k in range(len(states))]
+            panel.bar(places, [v for v, _ in values], 0.25, yerr=[e for _, e in values], label=convention, color=f"C{number}")
+        panel.set_xticks(range(len(states)), [state.replace(", ", "\n") for state in states], fontsize=8)
+        panel.set_ylabel(label)
+        panel.axhline(0, color="black", linewidth=0.8)
+    panels[0].legend(fontsize=8)
+    report.figure(figure, "The same forces, three conventions: collision pressure and normal stress difference.")

@@ -1,0 +1,102 @@
+"""Pressure of isotropic rods
+
+Is Z right for spheres and for rods of L/D = 1 to 20, at the default time step? Compared with the hard-sphere equation of state and with
+Carnahan-Starling (L/D = 0), with Monte Carlo (2, 5, 10), and where dilute with the virial series to B4 (1, 3, 10, 20). Closed forms of
+Parsons-Lee and Nezbeda are drawn beside it: they are no test for rods.
+"""
+
+import math
+
+import figures
+import reference_values
+from report import per_cent, with_error
+from runs import Run
+
+SHAPES = {  # L/D: volume fractions
+    0: (0.05, 0.10, 0.20, 0.30, 0.40, 0.45),
+    1: (0.05, 0.08, 0.20, 0.30, 0.40),
+    2: (0.10, 0.20, 0.30, 0.40, 0.45),
+    3: (0.05, 0.08, 0.20, 0.30),
+    5: (0.05, 0.10, 0.15, 0.20, 0.25, 0.30, 0.35),
+    10: (0.02, 0.05, 0.10, 0.20),
+    20: (0.01, 0.02, 0.03, 0.05),
+}
+QUICK_SHAPES = {0: (0.10, 0.40), 1: (0.08,), 2: (0.30,), 5: (0.20,), 10: (0.05,), 20: (0.02,)}
+TOLERANCE = 0.01  # of Z, beside two standard errors: what the time step may cost
+
+
+def runs(quick):
+    shapes = QUICK_SHAPES if quick else SHAPES
+    return [Run(name=f"L{beta}_phi{phi:.2f}",
+                scene={"seed": 1, "box": {"volume_fraction": phi},
+                       "rods": {"count": 500 if quick else 1000, "length": float(beta)},
+                       "solver": {"tolerance": 1e-4}},
+                equilibration=2000 if quick else 20000 if phi * (beta + 1) > 2 or beta >= 10 else 6000,
+                production=8000 if quick else production(beta, phi))
+            for beta, volume_fractions in shapes.items() for phi in volume_fractions]
+
+
+def production(beta, phi):
+    """Long rods take longer to forget their direction, and dilute ones collide more rarely."""
+    return 120000 if beta >= 10 else 60000 if phi <= 0.1 else 30000
+
+
+def evaluate(report, runs_by_name, quick):
+    rows, numbers, points = [], [], {}
+    for run in runs_by_name.values():
+        beta, phi = run.scene["rods"]["length"], run.scene["box"]["volume_fraction"]
+        Z, error = run.value("Z")
+        reference = reference_values.best(beta, phi)
+        state = f"L/D = {beta:g}, phi = {phi:.2f}"
+        if reference:
+            report.compare(state, (Z, error), reference[:2], TOLERANCE)
+        if beta == 0:
+            report.compare(f"{state}, Carnahan-Starling", (Z, error), (reference_values.carnahan_starling(phi), 0.0),
+                           TOLERANCE)
+        points.setdefault(beta, []).append((phi, Z, error, reference))
+        closed = (reference_values.parsons_lee(beta, phi), reference_values.nezbeda(beta, phi))
+        rows.append([f"{beta:g}", f"{phi:.2f}", with_error(Z, error),
+                     with_error(*reference[:2]) + f" ({reference[2]})" if reference else "",
+                     per_cent(Z, reference[0], math.hypot(error, reference[1])) if reference else "",
+                     *(f"{value:.3f}" for value in closed)])
+        numbers.append([beta, phi, Z, error, *(reference or ("", "", "")), *closed])
+    header = ["L/D", "phi", "Z", "reference", "difference, %", "Parsons-Lee", "Nezbeda"]
+    report.table("Z with its standard error; the difference with that of both values together.", header, rows)
+    report.data(["L_over_D", "phi", "Z", "standard_error", "reference", "reference_error", "reference_kind", "parsons_lee",
+                 "nezbeda"], numbers)
+    deviations = [(abs(Z / reference[0] - 1), beta, phi) for beta, of_shape in points.items()
+                  for phi, Z, _, reference in of_shape if reference]
+    worst, beta, phi = max(deviations)
+    report.remark(f"Worst deviation of {len(deviations)} points with a reference: {100 * worst:.2f} % (L/D = {beta:g}, "
+                  f"phi = {phi:.2f}); root mean square {100 * math.sqrt(sum(d[0]**2 for d in deviations) / len(deviations)):.2f} %.")
+    draw(report, points)
+
+
+def draw(report, points):
+    figure, (pressure, difference) = figures.axes(2, 1, size=(6.4, 6.4), sharex=True, height_ratios=[2.2, 1])
+    for number, (beta, of_shape) in enumerate(points.items()):
+        colour = f"C{number}"
+        phi, Z, error, references = zip(*of_shape)
+        pressure.errorbar(phi, Z, error, color=colour, marker="o", markersize=4, linestyle="none", label=f"L/D = {beta:g}")
+        fine = [max(phi) * k / 100 for k in range(1, 101)]
+        pressure.plot(fine, [reference_values.parsons_lee(beta, x) for x in fine], color=colour, linewidth=0.8,
+                      linestyle="--")
+        pressure.plot(fine, [reference_values.nezbeda(beta, x) for x in fine], color=colour, linewidth=0.8, linestyle=":")
+        known = [(x, z, e, r) for x, z, e, r in zip(phi, Z, error, references) if r]
+        pressure.plot([x for x, *_ in known], [r[0] for *_, r in known], color=colour, marker="s", markersize=8,
+                      markerfacecolor="none", linestyle="none")
+        difference.errorbar([x for x, *_ in known], [100 * (z / r[0] - 1) for _, z, _, r in known],
+                            [100 * math.hypot(e, r[1]) / r[0] for _, _, e, r in known], color=colour, marker="o",
+                            markersize=4, linestyle="none", capsize=2)
+    pressure.set_yscale("log")
+    pressure.set_ylabel("Z = P/(n kT)")
+    pressure.plot([], [], color="black", marker="s", markersize=8, markerfacecolor="none", linestyle="none",
+                  label="reference")
+    pressure.plot([], [], color="black", linewidth=0.8, linestyle="--", label="Parsons-Lee")
+    pressure.plot([], [], color="black", linewidth=0.8, linestyle=":", label="Nezbeda")
+    pressure.legend(fontsize=8)
+    difference.axhspan(-1, 1, color="0.92")
+    difference.axhline(0, color="black", linewidth=0.8)
+    difference.set_ylabel("difference, %")
+    difference.set_xlabel("volume fraction")
+    report.figure(figure, "Z of isotropic rods (points), references (squares), closed forms (lines); below, the difference.")

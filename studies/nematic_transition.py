@@ -1,0 +1,108 @@
+"""The isotropic-nematic transition
+
+L/D = 5 from aligned and from random starts: do Z, the nematic order S and the anisotropy of the collision stress jump where Monte Carlo and the literature say,
+and is the anisotropy the one that equilibrium demands, (Z_c + 2 B S)/(Z_c - B S) with Z_c = Z - 1 (theory, eq. 1.8)? Every run here is a cube of
+1000 rods, as is the Monte Carlo.
+"""
+
+import math
+
+import figures
+import reference_values
+from report import per_cent, with_error
+from runs import Run
+
+BETA = 5
+ALIGNED = (0.38, 0.40, 0.42, 0.44, 0.46, 0.48, 0.50)
+RANDOM = (0.30, 0.36, 0.38, 0.40, 0.42)
+RMS_STEP = 0.05
+NEMATIC = 0.4  # S above this is called nematic: the transition jumps from 0.2 to 0.57
+
+
+def runs(quick):
+    chosen = [("aligned", 0.44)] if quick else [("aligned", phi) for phi in ALIGNED] + [("random", phi) for phi in RANDOM]
+    return [Run(name=f"{start}_phi{phi:.2f}",
+                scene={"seed": 3, "box": {"volume_fraction": phi},
+                       "rods": {"count": 300 if quick else 1000, "length": float(BETA), "start": start},
+                       "time": {"rms_step": RMS_STEP},
+                       "solver": {"tolerance": 1e-4}},
+                equilibration=6000 if quick else 40000,
+                production=14000 if quick else 80000)
+            for start, phi in chosen]
+
+
+def evaluate(report, runs_by_name, quick):
+    rows, numbers, points = [], [], {}
+    for run in runs_by_name.values():
+        start, phi = run.scene["rods"]["start"], run.scene["box"]["volume_fraction"]
+        state = f"{start} start, phi = {phi:.2f}"
+        Z, S = run.value("Z"), run.value_if_any("nematic_order")
+        oracle = run.summary["oracles"]["anisotropy"]
+        measured, predicted = oracle["measured"]["mean"], oracle["predicted"]["mean"]
+        error = oracle["standard_error"] or math.nan
+        entry = run.summary["nematic_order"]
+        correlation = entry["correlation_time_rows"] * 10 * run.time_step
+        equilibrium = reference_values.monte_carlo_at(BETA, phi, "aligned" if start == "aligned" else "isotropic")
+        # Beyond the transition a random start is not in equilibrium: it is shown, and not judged.
+        if equilibrium and not (start == "random" and phi > 0.40):
+            trusted = 0.01 if phi >= 0.48 else 0.005 if phi >= 0.38 else 0.0  # of the reference, beside its error bar
+            if not quick:
+                report.compare(f"{state}: Z", Z, (equilibrium.Z, equilibrium.Z_error), 0.01 + trusted)
+        if S[0] > NEMATIC:
+            report.compare(f"{state}: anisotropy of the stress", (measured, error), (predicted, 0.0), 0.005, errors=3)
+            if equilibrium and not quick:
+                report.compare(f"{state}: S", (S[0], S[1] if S[1] == S[1] else 0.02), (equilibrium.S, equilibrium.S_error),
+                               0.02)
+        points.setdefault(start, []).append((phi, Z, S, measured, predicted, error))
+        reference = with_error(equilibrium.Z, equilibrium.Z_error) if equilibrium else ""
+        difference = per_cent(Z[0], equilibrium.Z, math.hypot(Z[1], equilibrium.Z_error)) if equilibrium else ""
+        rows.append([start, f"{phi:.2f}", with_error(*Z), reference, difference, with_error(*S),
+                     f"{equilibrium.S:.3f}" if equilibrium else "", f"{correlation:.0f}", f"{entry['n_eff']:.0f}",
+                     with_error(measured, oracle["measured"]["standard_error"] or math.nan), f"{predicted:.3f}"])
+        numbers.append([start, phi, *Z, *S, correlation, entry["n_eff"], measured, predicted, error])
+    report.table("Z, order S and anisotropy sigma_max/sigma_min; tau_S is the correlation time of S in mu D3/kT (free rods forget their direction in "
+                 "1/(6 D_R) = 29), n_S how many independent samples of S the run holds (below ten: no error bar).",
+                 ["start", "phi", "Z", "Monte Carlo Z", "difference, %", "S", "Monte Carlo S", "tau_S", "n_S", "anisotropy",
+                  "predicted"], rows)
+    report.data(["start", "phi", "Z", "Z_error", "S", "S_error", "S_correlation_time", "S_samples", "anisotropy",
+                 "anisotropy_predicted", "anisotropy_error"], numbers)
+    if not quick:
+        compare_starts(report, points)
+    draw(report, points)
+
+
+def compare_starts(report, points):
+    """Hysteresis: what the two starts still differ by."""
+    random = {phi: (Z, S) for phi, Z, S, *_ in points["random"]}
+    rows = [[f"{phi:.2f}", f"{Z[0] - random[phi][0][0]:+.3f} +- {math.hypot(Z[1], random[phi][0][1]):.3f}",
+             f"{S[0] - random[phi][1][0]:+.3f}"] for phi, Z, S, *_ in points["aligned"] if phi in random]
+    report.table("Aligned less random start: hysteresis.", ["phi", "Z", "S"], rows)
+
+
+def draw(report, points):
+    figure, panels = figures.axes(1, 3, size=(10.5, 3.8))
+    published = reference_values.mcgrother()
+    panels[0].plot([phi for phi, *_ in published], [Z for _, Z, _ in published], "k+", label="McGrother et al. 1996")
+    panels[1].plot([phi for phi, *_ in published], [S for *_, S in published], "k+")
+    for start, colour in (("aligned", "C0"), ("random", "C1")):
+        if start not in points:
+            continue
+        phi, Z, S, measured, predicted, error = zip(*points[start])
+        for panel, values in ((panels[0], Z), (panels[1], S)):
+            panel.errorbar(phi, [v for v, _ in values], [e if e == e else 0 for _, e in values], color=colour, marker="o",
+                           markersize=4, linewidth=0.8, label=f"{start} start")
+        panels[2].errorbar(phi, measured, error, color=colour, marker="o", markersize=4, linestyle="none")
+        panels[2].plot(phi, predicted, color=colour, marker="_", markersize=12, linestyle="none")
+    for start in ("isotropic", "aligned"):
+        states = [state for state in reference_values.monte_carlo(BETA, start) if state.phi >= 0.3]
+        style = {"color": "black", "marker": "s" if start == "aligned" else "D", "markersize": 8, "linestyle": "none",
+                 "markerfacecolor": "none"}
+        panels[0].plot([s.phi for s in states], [s.Z for s in states], **style, label=f"Monte Carlo, {start}")
+        panels[1].plot([s.phi for s in states], [s.S for s in states], **style)
+        panels[2].plot([s.phi for s in states], [reference_values.predicted_anisotropy(BETA, s.Z, s.S) for s in states],
+                       **style)
+    for panel, name in zip(panels, ("Z = P/(n kT)", "nematic order S", "sigma_max/sigma_min")):
+        panel.set(xlabel="volume fraction", ylabel=name)
+    panels[0].legend(fontsize=7)
+    report.figure(figure, "Z, order and anisotropy of the collision stress; dashes, and squares of Monte Carlo, in the right panel: as "
+                          "equilibrium demands from Z and S.")

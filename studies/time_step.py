@@ -1,0 +1,134 @@
+"""Error of the time step
+
+How far is Z off at a finite time step, in the scheme of the paper ("plain") and with the correction (theory, section 3)? The plain error should fall as the
+square root of the step in time, that is in proportion to the rms step (order 1/2); the corrected one at least as the step in time (order 1).
+"""
+
+import math
+
+import numpy
+
+import figures
+import reference_values
+from report import with_error
+from runs import Run
+
+STATES = ((0, 0.2), (0, 0.4), (5, 0.2), (5, 0.3))  # L/D, volume fraction
+STEPS = {0.005: 100000, 0.01: 60000, 0.02: 50000, 0.03: 50000, 0.045: 30000, 0.06: 40000, 0.1: 20000}  # rms step: production
+QUICK_STEPS = {0.02: 12000, 0.03: 10000, 0.06: 6000, 0.1: 5000}
+AIMS = {0.03: 0.005, 0.06: 0.01}  # rms step: largest error of the corrected Z, beside two standard errors
+SCHEMES = ("plain", "corrected")
+
+
+def runs(quick):
+    steps = QUICK_STEPS if quick else STEPS
+    states = STATES[:1] if quick else STATES
+    share = {"plain": 0.5, "corrected": 1.0}  # the plain errors are the larger ones
+    return [Run(name=f"L{beta}_phi{phi}_rms{rms}_{scheme}",
+                scene={"seed": 2, "box": {"volume_fraction": phi},
+                       "rods": {"count": 500 if quick else 1000, "length": float(beta)},
+                       "contact": {"brownian_correction": scheme == "corrected"},
+                       "time": {"rms_step": rms},
+                       "solver": {"tolerance": 1e-4}},
+                equilibration=production // 10 + int(1000 * (0.03 / rms)**1.5),
+                production=int(share[scheme] * production))
+            for beta, phi in states for scheme in SCHEMES for rms, production in steps.items()]
+
+
+class Series:
+    """Z against the rms step, of one state and scheme."""
+
+    def __init__(self, beta, phi, scheme, runs_by_name):
+        self.beta, self.phi, self.scheme = beta, phi, scheme
+        found = [run for run in runs_by_name.values() if run.name.startswith(f"L{beta}_phi{phi}_")
+                 and run.name.endswith(scheme)]
+        self.rms = numpy.array([run.scene["time"]["rms_step"] for run in found])
+        self.Z, self.error = numpy.array([run.value("Z") for run in found]).T
+        self.reference, self.reference_error, _ = reference_values.best(beta, phi)
+        self.deviation = self.Z / self.reference - 1
+        self.deviation_error = numpy.hypot(self.error, self.reference_error) / self.reference
+
+    @property
+    def label(self):
+        return f"L/D = {self.beta}, phi = {self.phi}"
+
+    def limit(self, power):
+        """(Z, standard error) at step 0: fit of Z = a + b rms^power (+ c rms^(power + 1), with enough points) to steps
+        up to 0.06, weighted."""
+        low = self.rms < 0.061
+        columns = [self.rms[low]**0, self.rms[low]**power]
+        if low.sum() >= 5:
+            columns.append(self.rms[low]**(power + 1))
+        matrix = numpy.array(columns).T / self.error[low, None]
+        covariance = numpy.linalg.inv(matrix.T @ matrix)
+        best = covariance @ matrix.T @ (self.Z[low] / self.error[low])
+        return best[0], math.sqrt(covariance[0, 0])
+
+    def order(self):
+        """(order in the step in time, standard error): half the slope of log |deviation| against log rms, over points
+        whose deviation is above three standard errors; None from fewer than three such points."""
+        clear = numpy.abs(self.deviation) > 3 * self.deviation_error
+        if clear.sum() < 3:
+            return None
+        x, y = numpy.log(self.rms[clear]), numpy.log(numpy.abs(self.deviation[clear]))
+        weight = numpy.abs(self.deviation[clear]) / self.deviation_error[clear]
+        matrix = numpy.array([x**0, x]).T * weight[:, None]
+        covariance = numpy.linalg.inv(matrix.T @ matrix)
+        best = covariance @ matrix.T @ (y * weight)
+        return best[1] / 2, math.sqrt(covariance[1, 1]) / 2
+
+
+def evaluate(report, runs_by_name, quick):
+    states = STATES[:1] if quick else STATES
+    every = {(state, scheme): Series(*state, scheme, runs_by_name) for state in states for scheme in SCHEMES}
+    numbers = [[s.beta, s.phi, s.scheme, rms, Z, error, 100 * deviation, 100 * deviation_error]
+               for s in every.values() for rms, Z, error, deviation, deviation_error
+               in zip(s.rms, s.Z, s.error, s.deviation, s.deviation_error)]
+    report.data(["L_over_D", "phi", "scheme", "rms_step", "Z", "standard_error", "deviation_per_cent",
+                 "deviation_error_per_cent"], numbers)
+    rows = [[f"{s.beta}", f"{s.phi}", s.scheme, *(f"{100 * d:+.2f}({100 * e:.2f})"
+                                                 for d, e in zip(s.deviation, s.deviation_error))]
+            for s in every.values()]
+    report.table("Deviation of Z from the reference, in per cent (standard error of both), against the rms step in D.",
+                 ["L/D", "phi", "scheme", *(f"{rms:g}" for rms in next(iter(every.values())).rms)], rows)
+    fits = []
+    for s in every.values():
+        limit, order = s.limit(1 if s.scheme == "plain" else 2), s.order()
+        fits.append([f"{s.beta}", f"{s.phi}", s.scheme, with_error(*order, 2) if order else "too small to fit",
+                     with_error(*limit), with_error(s.reference, s.reference_error)])
+        report.compare(f"{s.label}, {s.scheme}, extrapolated to step 0", limit, (s.reference, s.reference_error), 0.005)
+        if s.scheme == "plain" and order:
+            report.compare(f"{s.label}, plain, order", order, (0.5, 0.0), 0.2)
+        if s.scheme == "corrected":
+            for rms, aim in AIMS.items():
+                point = numpy.flatnonzero(s.rms == rms)[0]
+                report.compare(f"{s.label}, corrected, rms step {rms}", (s.Z[point], s.error[point]),
+                               (s.reference, s.reference_error), aim)
+    report.table("Order of the error in the time step (1/2: in proportion to the rms step), and Z extrapolated to step 0.",
+                 ["L/D", "phi", "scheme", "order", "Z at step 0", "reference"], fits)
+    draw(report, every)
+
+
+def draw(report, every):
+    figure, panels = figures.axes(1, 2, size=(8.4, 3.8))
+    for number, ((state, scheme), s) in enumerate(every.items()):
+        colour = f"C{number // 2}"
+        style = {"color": colour, "marker": "o" if scheme == "corrected" else "s", "markersize": 4, "linewidth": 1,
+                 "linestyle": "-" if scheme == "corrected" else "--",
+                 "markerfacecolor": colour if scheme == "corrected" else "none"}
+        panels[0].errorbar(s.rms, 100 * s.deviation, 100 * s.deviation_error, **style,
+                           label=s.label if scheme == "corrected" else None)
+        panels[1].errorbar(s.rms, 100 * numpy.abs(s.deviation), 100 * s.deviation_error, **style)
+    panels[0].axhline(0, color="black", linewidth=0.8)
+    panels[0].set_ylabel("deviation of Z, %")
+    panels[0].legend(fontsize=8, title="corrected: full, plain: dashed", title_fontsize=8)
+    x = numpy.array([0.005, 0.1])
+    panels[1].plot(x, 600 * x**1, color="0.6", linewidth=0.8)
+    panels[1].plot(x, 1500 * x**2, color="0.6", linewidth=0.8)
+    panels[1].annotate("order 1/2", (0.02, 14), color="0.4", fontsize=8)
+    panels[1].annotate("order 1", (0.04, 1.6), color="0.4", fontsize=8)
+    panels[1].set(xscale="log", yscale="log", ylim=(0.02, 60), ylabel="|deviation of Z|, %")
+    for panel in panels:
+        panel.set_xlabel("rms step / D")
+    report.figure(figure, "Deviation of Z from the reference against the rms step, in the plain scheme and with the "
+                          "correction; right, the same in logarithms with lines of order 1/2 and 1.")
