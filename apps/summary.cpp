@@ -229,7 +229,8 @@ std::string summary_text(const Json& summary) {
         const Json& oracle = summary["oracles"]["anisotropy"];
         if (oracle["agree"] == Json(false))
             text += fmt::format(
-                "WARNING: the stress anisotropy differs from that of equilibrium by {:.3g} +- {:.2g}: the run may be too "
+                "WARNING: the stress anisotropy differs from that of equilibrium by {:.3g} +- {:.2g}: the run may be "
+                "too "
                 "short, its steps too long, or something pushes the rods\n",
                 oracle["difference"].get<double>(), oracle["standard_error"].get<double>());
     }

@@ -20,7 +20,7 @@ class Check:
 
     @property
     def passed(self):
-        return abs(self.measured - self.expected) <= self.allowed  # not so for nan
+        return bool(abs(self.measured - self.expected) <= self.allowed)  # not so for nan
 
 
 class Report:
@@ -35,7 +35,7 @@ class Report:
         errors of both together."""
         allowed = relative * abs(expected[0]) + errors * math.hypot(measured[1], expected[1])
         rule = f"{100 * relative:g} % and {errors:g} standard errors" if relative else f"{errors:g} standard errors"
-        self.checks.append(Check(name, measured[0], expected[0], allowed, rule))
+        self.checks.append(Check(name, float(measured[0]), float(expected[0]), float(allowed), rule))
         return self.checks[-1].passed
 
     def require(self, name, measured, lower=-math.inf, upper=math.inf):
@@ -43,7 +43,7 @@ class Report:
         nearest = min(max(measured, lower), upper)
         words = " and ".join(f"{word} {bound:g}" for word, bound in (("at least", lower), ("at most", upper))
                              if math.isfinite(bound))
-        self.checks.append(Check(name, measured, nearest, 0.0, words))
+        self.checks.append(Check(name, float(measured), float(nearest), 0.0, words))
         return self.checks[-1].passed
 
     def table(self, caption, header, rows):

@@ -21,11 +21,10 @@ struct Clock {
 struct SimulationSettings {
     std::uint64_t seed = 1;
     double time_step = 0.0;
-    double kT = 0.0;  ///< of the Brownian motion; 0 where there is none
-    bool brownian_correction =
-        true;                 ///< shift, compliance, true gap (theory, section 3); moments of the stress at touching
-    double wca_energy = 0.0;  ///< of the potential that rods repel each other by; 0: they are hard
-    double range = 0.0;       ///< contacts with a smaller gap are always taken; 0: as the step demands
+    double kT = 0.0;                  ///< of the Brownian motion; 0 where there is none
+    bool brownian_correction = true;  ///< shift, compliance, true gap, moments of the stress (theory, section 3)
+    double wca_energy = 0.0;          ///< of the potential that rods repel each other by; 0: they are hard
+    double range = 0.0;               ///< contacts with a smaller gap are always taken; 0: as the step demands
     SolverMethod method = SolverMethod::automatic;
     LcpSettings lcp;                  ///< tolerance as a length
     bool stress_conventions = false;  ///< other conventions of the stress are measured, too
@@ -68,6 +67,8 @@ private:
     RodMotion motion() const { return {moved_.centre, moved_.axis, displacement_, shift_}; }
     void extend_gap_velocities(const DelassusOperator& matrix, std::vector<double>& b) const;
     bool add_missed_contacts(const ContactMatrix& contact_matrix, const ContactSolution& solution, bool final);
+    bool corrects_brownian_motion() const { return settings_.brownian_correction && settings_.kT > 0.0; }
+    const std::vector<Vec3>& turned_half_way();
     std::pair<Vec3, Vec3> pushed(std::uint32_t row, const ContactVelocity& velocity) const;
 
     Box box_;

@@ -79,7 +79,7 @@ void Simulation::solve_contacts(StepReport& report) {
     using Include = ContactMatrix::Include;
     ContactMatrix contact_matrix(contacts_, rods_.size(),
                                  mobility_->couples_rods() ? Include::all_rods : Include::rods_with_contacts);
-    const double compliance = settings_.brownian_correction && settings_.kT > 0.0 ? contact_compliance : 0.0;
+    const double compliance = corrects_brownian_motion() ? contact_compliance : 0.0;
     DelassusOperator matrix(contact_matrix, rods_, *mobility_, compliance);
     std::vector<double> b;
     extend_gap_velocities(matrix, b);
@@ -165,21 +165,35 @@ bool Simulation::add_missed_contacts(const ContactMatrix& contact_matrix, const 
     return !missed.empty();
 }
 
-// Theory 1: the sum over contacts of (r_j - r_i) F, and over rods of the geometric part of the net torque.
+// Theory 1: the sum over contacts of (r_j - r_i) F, and over rods of the geometric part of the net torque. With the
+// time-step correction: of rods half way through their collisions (theory, eq. 3.7).
 void Simulation::measure_stress(StepReport& report) {
+    const std::vector<Vec3>& axis = corrects_brownian_motion() ? turned_half_way() : rods_.axis;
     const auto distance = settings_.brownian_correction ? ContactDistance::touching : ContactDistance::at_start;
     std::vector<Vec3> torque(solution_.rods.size());
     parallel_for(torque.size(), [&](std::size_t place) {
-        torque[place] = cross(rods_.axis[solution_.rods[place]], solution_.forces[place].lever);
+        torque[place] = cross(axis[solution_.rods[place]], solution_.forces[place].lever);
     });
     report.collision_virial =
-        sum_of_pair_stresses(contacts_, solution_.gamma, rods_, {solution_.rods, torque}, distance);
+        sum_of_pair_stresses(contacts_, solution_.gamma, rods_, axis, {solution_.rods, torque}, distance);
     if (settings_.stress_conventions) {
-        report.centre_of_mass_virial = centre_of_mass_virial(contacts_, solution_.gamma, rods_, distance);
+        report.centre_of_mass_virial = centre_of_mass_virial(contacts_, solution_.gamma, rods_, axis, distance);
         report.centre_line_virial = centre_line_virial(contacts_, solution_.gamma, rods_, distance);
     }
     report.active_contacts = parallel_sum<std::size_t>(
         solution_.gamma.size(), [&](std::size_t l) { return solution_.gamma[l] > 0.0 ? std::size_t{1} : 0; });
+}
+
+// Axes after the known motion and one half of what contact forces turn them; of the rods in contact, those that matter.
+// `advance` overwrites them.
+const std::vector<Vec3>& Simulation::turned_half_way() {
+    parallel_for(solution_.rods.size(), [&](std::size_t place) {
+        const std::uint32_t row = solution_.rods[place];
+        const Vec3& axis = rods_.axis[row];
+        const Vec3 collision = cross(axis, solution_.velocities[place].turning);
+        moved_.axis[row] = rotated(axis, settings_.time_step * (known_.angular[row] + 0.5 * collision));
+    });
+    return moved_.axis;
 }
 
 // Theory 2.4: q^{k+1} = q^k + dt (U_known + U_C), axes by the exponential map.

@@ -38,15 +38,16 @@ Mat3 virial(const Contacts& contacts, std::span<const double> gamma, Separation&
 }  // namespace
 
 Mat3 sum_of_pair_stresses(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
-                          const RodTorques& torques, ContactDistance distance) {
-    return centre_of_mass_virial(contacts, gamma, rods, distance) + geometric_stress(rods, torques);
+                          std::span<const Vec3> axis, const RodTorques& torques, ContactDistance distance) {
+    return centre_of_mass_virial(contacts, gamma, rods, axis, distance) + geometric_stress(rods, axis, torques);
 }
 
 Mat3 centre_of_mass_virial(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
-                           ContactDistance distance) {
+                           std::span<const Vec3> axis, ContactDistance distance) {
+    require_rows("axis", axis.size(), rods.size(), "rod");
     return virial(contacts, gamma, [&](const Contact& contact) {
-        return contact.arm_i * rods.axis[contact.i] + between_centre_lines(contact, rods, distance) -
-               contact.arm_j * rods.axis[contact.j];
+        return contact.arm_i * axis[contact.i] + between_centre_lines(contact, rods, distance) -
+               contact.arm_j * axis[contact.j];
     });
 }
 
@@ -56,11 +57,12 @@ Mat3 centre_line_virial(const Contacts& contacts, std::span<const double> gamma,
                   [&](const Contact& contact) { return between_centre_lines(contact, rods, distance); });
 }
 
-Mat3 geometric_stress(const Rods& rods, const RodTorques& torques) {
+Mat3 geometric_stress(const Rods& rods, std::span<const Vec3> axis, const RodTorques& torques) {
+    require_rows("axis", axis.size(), rods.size(), "rod");
     require_rows("torque", torques.torque.size(), torques.rods.size(), "rod");
     return parallel_sum<Mat3>(torques.rods.size(), [&](std::size_t k) {
         const std::uint32_t row = torques.rods[k];
-        return geometric_stress_of_rod(rods.axis[row], rods.length[row], rods.diameter[row], torques.torque[k]);
+        return geometric_stress_of_rod(axis[row], rods.length[row], rods.diameter[row], torques.torque[k]);
     });
 }
 

@@ -11,7 +11,8 @@
 // The collision stress of rods, with work proportional to the number of contacts and rods:
 //     V Sigma_col = sum over contacts of (r_j - r_i) F  +  sum over rods of s^G(net collision torque).
 // The geometric stress is linear in the torque on its body, so the sum over contacts of eq. (1.1) becomes a sum over
-// rods. All sums have the same bits for any number of threads.
+// rods. All sums have the same bits for any number of threads. `axis` are the rods' directions, one a row: those of
+// `rods`, or those at another time of the step (theory, section 3).
 
 namespace jostle {
 
@@ -21,7 +22,7 @@ enum class ContactDistance {
     at_start   ///< the gap that the step began with, as in the paper
 };
 
-/// Torques on some of the rods; the others feel none.
+/// Net collision torques, about their centres, on some of the rods; the others feel none.
 struct RodTorques {
     std::span<const std::uint32_t> rods;  ///< rows, one a torque
     std::span<const Vec3> torque;
@@ -29,27 +30,24 @@ struct RodTorques {
 
 /// Sum over contacts of the pair stress, V Sigma_col = centre_of_mass_virial + geometric_stress (theory, eq. 1.1).
 ///
-/// `gamma`: one force a contact, >= 0. `torques`: net collision torques about the rods' centres, those of D gamma.
-/// Throws InputError if a size is wrong.
+/// `gamma`: one force a contact, >= 0. `torques`: those of D gamma. Throws InputError if a size is wrong.
 Mat3 sum_of_pair_stresses(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
-                          const RodTorques& torques, ContactDistance distance = ContactDistance::touching);
+                          std::span<const Vec3> axis, const RodTorques& torques, ContactDistance distance);
 
 /// Sum over contacts of (r_j - r_i) F, with r_j - r_i = arm_i n_i + distance normal - arm_j n_j and F = gamma normal on
 /// rod j.
 ///
 /// `gamma`: one force a contact. Throws InputError if their number is wrong.
 Mat3 centre_of_mass_virial(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
-                           ContactDistance distance = ContactDistance::touching);
+                           std::span<const Vec3> axis, ContactDistance distance);
 
 /// Sum over contacts of (r_j + a_j - r_i - a_i) F = distance normal F, from centre line to centre line: the "centre
-/// line" stress (Snook et al. 2014), for comparison. The rest as above.
+/// line" stress (Snook et al. 2014), for comparison.
 Mat3 centre_line_virial(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
-                        ContactDistance distance = ContactDistance::touching);
+                        ContactDistance distance);
 
-/// Sum over rods of the geometric stress under their net collision torques, about their centres.
-///
-/// Throws InputError if there is not one torque a row.
-Mat3 geometric_stress(const Rods& rods, const RodTorques& torques);
+/// Sum over rods of the geometric stress. Throws InputError if there is not one torque a row.
+Mat3 geometric_stress(const Rods& rods, std::span<const Vec3> axis, const RodTorques& torques);
 
 /// Geometric stress of a rod with axis n under a torque T: (1/G_perp)[N_par n (T x n) - N_perp (T x n) n] for T across
 /// n.

@@ -75,8 +75,8 @@ TEST_CASE("sum over contacts of the pair stress = sum of virials + sum over rods
             torque[i] -= cross(point_i, gamma.back() * normal);
             torque[j] += cross(point_j, gamma.back() * normal);
         }
-        const Mat3 over_rods = sum_of_pair_stresses(contacts, gamma, rods, {rows, torque}, distance);
-        const Mat3 virial = centre_of_mass_virial(contacts, gamma, rods, distance);
+        const Mat3 over_rods = sum_of_pair_stresses(contacts, gamma, rods, rods.axis, {rows, torque}, distance);
+        const Mat3 virial = centre_of_mass_virial(contacts, gamma, rods, rods.axis, distance);
         CHECK(norm(over_rods - over_contacts) < 1e-12 * norm(over_contacts));
         CHECK(relative_asymmetry(over_rods) < 1e-12);
         CHECK(trace(over_rods) == doctest::Approx(trace(virial)).epsilon(1e-12));
@@ -86,7 +86,8 @@ TEST_CASE("sum over contacts of the pair stress = sum of virials + sum over rods
         CHECK(relative_asymmetry(centre_line) < 1e-12);
         CHECK(norm(centre_line - over_rods) > 1e-3 * norm(over_rods));
         gamma.pop_back();
-        CHECK_THROWS_AS(sum_of_pair_stresses(contacts, gamma, rods, RodTorques{rows, torque}), InputError);
+        const RodTorques torques = {rows, torque};
+        CHECK_THROWS_AS(sum_of_pair_stresses(contacts, gamma, rods, rods.axis, torques, distance), InputError);
     }
 }
 
@@ -120,17 +121,18 @@ TEST_CASE("the sum over rods has the same bits for any number of threads") {
     const std::vector<std::uint32_t> rows = all_rows(rods);
     for (Vec3& value : torque) value = random_vector(generator);
     parallel::set_thread_count(1);
-    const Mat3 one = geometric_stress(rods, {rows, torque});
+    const Mat3 one = geometric_stress(rods, rods.axis, {rows, torque});
     for (const int threads : {2, 3, 4}) {
         parallel::set_thread_count(threads);
-        CHECK(geometric_stress(rods, {rows, torque}).m == one.m);
+        CHECK(geometric_stress(rods, rods.axis, {rows, torque}).m == one.m);
     }
     Mat3 plain;
     for (std::size_t i = 0; i < rods.size(); ++i)
         plain += geometric_stress_of_rod(rods.axis[i], rods.length[i], rods.diameter[i], torque[i]);
     CHECK(norm(plain - one) < 1e-12 * norm(one));
     torque.pop_back();
-    CHECK_THROWS_AS(geometric_stress(rods, {rows, torque}), InputError);
+    CHECK_THROWS_AS(geometric_stress(rods, rods.axis, {rows, torque}), InputError);
+    CHECK_THROWS_AS(geometric_stress(rods, torque, {{}, {}}), InputError);  // an axis is missing
 }
 
 TEST_CASE("eq. (1.2): n kT I + sum/V, pressure, Z") {
