@@ -2,10 +2,8 @@
 
 What does each convention give for the same forces? Rigid body (theory, eq. 1.1; what jostle reports), centre of mass to centre of mass, and centre line to
 centre line (Snook et al. 2014). Measured are the collision pressure and the normal stress difference along less across the mean direction, over n kT. Equilibrium
-demands 3 B S of the first (theory, eq. 1.8), because the second is isotropic.
+demands 3 B S of the difference of the first two, which is the geometric stress (theory, eq. 1.8); and in a fluid the second is isotropic.
 """
-
-import math
 
 import numpy
 
@@ -13,10 +11,9 @@ import figures
 import reference_values
 from report import with_error
 from runs import Run
+from stress_tensor import CONVENTIONS, Tensor, predicted_normal_difference
 
 STATES = ((5, 0.30, "random"), (5, 0.44, "aligned"), (5, 0.48, "aligned"), (2, 0.40, "random"))  # L/D, phi, start
-CONVENTIONS = {"rigid body": "stress", "centre of mass": "centre_of_mass", "centre line": "centre_line"}
-BLOCKS = 20
 
 
 def runs(quick):
@@ -30,34 +27,6 @@ def runs(quick):
             for beta, phi, start in (STATES[1:2] if quick else STATES)]
 
 
-def blocked(values):
-    """Mean and standard error from a few long blocks."""
-    means = numpy.array([block.mean() for block in numpy.array_split(values, BLOCKS)])
-    return means.mean(), means.std(ddof=1) / math.sqrt(BLOCKS)
-
-
-class Tensor:
-    """One convention of the stress of a run, over n kT, by rows of the series."""
-
-    def __init__(self, run, series, convention):
-        names = [f"{CONVENTIONS[convention]}_{a}{b}" for a in "xyz" for b in "xyz"]
-        kinetic = run.summary["stress_kinetic"]["mean"]
-        self.rows = numpy.array([series[name] for name in names]).T.reshape(-1, 3, 3) / kinetic
-
-    def pressure(self):
-        return blocked(numpy.trace(self.rows, axis1=1, axis2=2) / 3)
-
-    def normal_difference(self, director):
-        along = numpy.einsum("kab,a,b->k", self.rows, director, director)
-        return blocked(along - (numpy.trace(self.rows, axis1=1, axis2=2) - along) / 2)
-
-    def asymmetry(self):
-        """Largest antisymmetric element of a row, and of the mean, both relative to the trace."""
-        odd = self.rows - self.rows.transpose(0, 2, 1)
-        trace = numpy.trace(self.rows.mean(axis=0))
-        return numpy.abs(odd).max() / trace, numpy.abs(odd.mean(axis=0)).max() / trace
-
-
 def evaluate(report, runs_by_name, quick):
     rows, numbers, bars = [], [], []
     for run in runs_by_name.values():
@@ -66,9 +35,7 @@ def evaluate(report, runs_by_name, quick):
         series = run.series()
         director = numpy.array(run.summary["director"])
         tensors = {convention: Tensor(run, series, convention) for convention in CONVENTIONS}
-        order_along = sum(series[f"order_{a}{b}"] * director["xyz".index(a)] * director["xyz".index(b)] * (1 if a == b else 2)
-                          for a, b in ("xx", "xy", "xz", "yy", "yz", "zz"))
-        predicted = tuple(3 * reference_values.moment_anisotropy(beta) * value for value in blocked(order_along))
+        predicted = predicted_normal_difference(run, series, director)
         differences = {convention: tensor.normal_difference(director) for convention, tensor in tensors.items()}
         for convention, tensor in tensors.items():
             pressure, difference = tensor.pressure(), differences[convention]
@@ -85,17 +52,21 @@ def evaluate(report, runs_by_name, quick):
         report.require(f"{state}: asymmetry of the centre-line stress, largest of any row",
                        tensors["centre line"].asymmetry()[0], upper=1e-9)
         if abs(predicted[0]) > 0.5:  # a nematic: elsewhere the mean order is only what rotation has not yet forgotten
-            report.compare(f"{state}: normal stress difference, rigid body, against 3 B S", differences["rigid body"],
-                           predicted, 0.01, errors=3)
-        report.compare(f"{state}: normal stress difference, centre of mass, against 0", differences["centre of mass"],
-                       (0.0, 0.0), 0.0, errors=3)
+            report.compare(f"{state}: normal difference of the geometric stress against 3 B S",
+                           (total - centre).normal_difference(director), predicted, 0.01, errors=3)
+        if phi < reference_values.LAYERS_ABOVE:
+            report.compare(f"{state}: normal difference, centre of mass, against 0", differences["centre of mass"],
+                           (0.0, 0.0), 0.0, errors=3)
     report.table("Collision pressure and normal stress difference over n kT; asymmetry relative to the trace, of the worst row and of the mean.",
                  ["L/D", "phi", "convention", "pressure", "normal difference", "3 B S", "asymmetry, row", "mean"], rows)
-    report.data(["L_over_D", "phi", "convention", "pressure", "pressure_error", "normal_difference",
+    report.numbers(["L_over_D", "phi", "convention", "pressure", "pressure_error", "normal_difference",
                  "normal_difference_error", "predicted_normal_difference", "asymmetry_row", "asymmetry_mean"], numbers)
     report.remark("Rigid body and centre of mass have the same pressure, row by row: the geometric stress has no trace. The centre-of-mass stress is "
                   "isotropic even in the nematic, so all of the normal stress difference is geometric; row by row it is not symmetric. The centre-line "
                   "stress is symmetric, but leaves out of the pressure what forces along the axes carry between the centres.")
+    report.remark("At volume fraction 0.48 rods form layers ([nematic_transition](#nematic_transition) measures them), and a cube does not fit a whole "
+                  "number of them: the centre-of-mass stress is then the elastic stress of a strained smectic. It is shown, and not judged; the "
+                  "geometric stress is right there, too.")
     draw(report, bars)
 
 

@@ -38,7 +38,7 @@ def evaluate(report, runs_by_name, quick):
     rows = [[name, with_error(*value), f"{(value[0] - mean) / value[1]:+.1f}"] for name, value in zip(VARIANTS, values)]
     report.table(f"Z of L/D = {BETA}, phi = {PHI}, and its distance from the weighted mean {mean:.3f} in standard errors.",
                  ["drag", "Z", "distance"], rows)
-    report.data(["drag", "Z", "standard_error"], [[name, *value] for name, value in zip(VARIANTS, values)])
+    report.numbers(["drag", "Z", "standard_error"], [[name, *value] for name, value in zip(VARIANTS, values)])
     report.require(f"chi squared of {len(values)} values about their mean", chi2, upper=11.34)
     smallest_visible = 2 * math.sqrt(2) * max(error for _, error in values) / mean
     report.remark(f"chi squared is {chi2:.2f} for {degrees} degrees of freedom (above 11.34 by chance once in a hundred). A difference of two values by "

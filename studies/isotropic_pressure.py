@@ -62,7 +62,7 @@ def evaluate(report, runs_by_name, quick):
         numbers.append([beta, phi, Z, error, *(reference or ("", "", "")), *closed])
     header = ["L/D", "phi", "Z", "reference", "difference, %", "Parsons-Lee", "Nezbeda"]
     report.table("Z with its standard error; the difference with that of both values together.", header, rows)
-    report.data(["L_over_D", "phi", "Z", "standard_error", "reference", "reference_error", "reference_kind", "parsons_lee",
+    report.numbers(["L_over_D", "phi", "Z", "standard_error", "reference", "reference_error", "reference_kind", "parsons_lee",
                  "nezbeda"], numbers)
     deviations = [(abs(Z / reference[0] - 1), beta, phi) for beta, of_shape in points.items()
                   for phi, Z, _, reference in of_shape if reference]

@@ -93,7 +93,7 @@ def evaluate(report, runs_by_name, quick):
     reference = reference_values.monte_carlo_at(BETA, PHI)
     report.table(f"Z against {with_error(reference.Z, reference.Z_error)} (Monte Carlo), and processor seconds per unit of time (mu D3/kT), {COUNT} rods.",
                  ["method", "rms step / D", "time step", "Z", "deviation, %", "s per time"], rows)
-    report.data(["method", "rms_step", "time_step", "Z", "standard_error", "deviation", "deviation_error", "seconds_per_time"],
+    report.numbers(["method", "rms_step", "time_step", "Z", "standard_error", "deviation", "deviation_error", "seconds_per_time"],
                 [[m.name, *values] for m in methods for values in
                  zip(m.rms, m.time_step, m.Z, m.error, m.deviation, m.deviation_error, m.seconds)])
     report.remark(f"The WCA rods have a diameter of {1 / effective_diameter():.4f} D.")

@@ -47,7 +47,7 @@ def evaluate(report, runs_by_name, _):
     report.table(f"{some.summary['rods']} rods L/D = {BETA}, rms step 0.03 D, {steps} steps in all; standard errors are corrected for correlation, and the "
                  "difference is also given in standard errors of both values together.",
                  ["phi", "Z", "standard error", "reference Z", "difference, %", "in standard errors"], rows)
-    report.data(["phi", "Z", "standard_error", "reference_Z", "reference_standard_error", "difference_per_cent",
+    report.numbers(["phi", "Z", "standard_error", "reference_Z", "reference_standard_error", "difference_per_cent",
                  "difference_in_standard_errors"], numbers)
     draw(report, points)
 

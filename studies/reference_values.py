@@ -9,6 +9,8 @@ import pathlib
 
 import runs
 
+# Volume fraction of L/D = 5 above which rods form layers, in a cube of 1000 (nematic_transition measures them).
+LAYERS_ABOVE = 0.465
 FOLDER = pathlib.Path(__file__).resolve().parent / "reference"
 
 

@@ -50,7 +50,7 @@ class Report:
         """A table of texts; `rows` may hold anything that has a text."""
         self.tables.append({"caption": caption, "header": header, "rows": [[str(cell) for cell in row] for row in rows]})
 
-    def data(self, header, rows, name=None):
+    def numbers(self, header, rows, name=None):
         """The numbers behind it, as CSV."""
         runs.write_csv(self.folder / f"{name or self.name}.csv", header, rows)
 

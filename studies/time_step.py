@@ -18,6 +18,7 @@ STEPS = {0.005: 100000, 0.01: 60000, 0.02: 50000, 0.03: 50000, 0.045: 30000, 0.0
 QUICK_STEPS = {0.02: 12000, 0.03: 10000, 0.06: 6000, 0.1: 5000}
 AIMS = {0.03: 0.005, 0.06: 0.01}  # rms step: largest error of the corrected Z, beside two standard errors
 SCHEMES = ("plain", "corrected")
+ORDER_UP_TO, FIT_UP_TO = 0.045, 0.1  # rms steps
 
 
 def runs(quick):
@@ -52,30 +53,43 @@ class Series:
     def label(self):
         return f"L/D = {self.beta}, phi = {self.phi}"
 
-    def limit(self, power):
-        """(Z, standard error) at step 0: fit of Z = a + b rms^power (+ c rms^(power + 1), with enough points) to steps
-        up to 0.06, weighted."""
-        low = self.rms < 0.061
-        columns = [self.rms[low]**0, self.rms[low]**power]
-        if low.sum() >= 5:
-            columns.append(self.rms[low]**(power + 1))
-        matrix = numpy.array(columns).T / self.error[low, None]
-        covariance = numpy.linalg.inv(matrix.T @ matrix)
-        best = covariance @ matrix.T @ (self.Z[low] / self.error[low])
-        return best[0], math.sqrt(covariance[0, 0])
-
     def order(self):
-        """(order in the step in time, standard error): half the slope of log |deviation| against log rms, over points
-        whose deviation is above three standard errors; None from fewer than three such points."""
-        clear = numpy.abs(self.deviation) > 3 * self.deviation_error
+        """(order in the step in time, standard error): half the slope of log |deviation| against log rms, over points up
+        to ORDER_UP_TO whose deviation is above three standard errors; None from fewer than three such points."""
+        clear = (numpy.abs(self.deviation) > 3 * self.deviation_error) & (self.rms <= ORDER_UP_TO)
         if clear.sum() < 3:
             return None
-        x, y = numpy.log(self.rms[clear]), numpy.log(numpy.abs(self.deviation[clear]))
-        weight = numpy.abs(self.deviation[clear]) / self.deviation_error[clear]
-        matrix = numpy.array([x**0, x]).T * weight[:, None]
+        fit = WeightedFit(numpy.log(numpy.abs(self.deviation[clear])),
+                          self.deviation_error[clear] / numpy.abs(self.deviation[clear]),
+                          [self.rms[clear]**0, numpy.log(self.rms[clear])])
+        return fit.value[1] / 2, fit.error[1] / 2
+
+
+class WeightedFit:
+    """Least squares of values, with their errors, as a sum of columns."""
+
+    def __init__(self, values, errors, columns):
+        matrix = numpy.array(columns).T / errors[:, None]
         covariance = numpy.linalg.inv(matrix.T @ matrix)
-        best = covariance @ matrix.T @ (y * weight)
-        return best[1] / 2, math.sqrt(covariance[1, 1]) / 2
+        self.value = covariance @ matrix.T @ (values / errors)
+        self.error = numpy.sqrt(numpy.diag(covariance))
+
+
+def fit_both(plain, corrected):
+    """Both schemes have one limit: fits Z0 + a1 x + a2 x^2 + a3 x^3 to the plain and Z0 + b1 x + b2 x^2 to the corrected Z,
+    x the rms step up to FIT_UP_TO.
+
+    Returns (Z0, its error) with b1 = 0, and (b1/|a1|, its error) with b1 free: what is left of the error of order 1/2.
+    """
+    x = numpy.concatenate([plain.rms, corrected.rms])
+    scheme = numpy.repeat([1.0, 0.0], [len(plain.rms), len(corrected.rms)])
+    values, errors = numpy.concatenate([plain.Z, corrected.Z]), numpy.concatenate([plain.error, corrected.error])
+    near = x <= FIT_UP_TO
+    columns = [column[near] for column in (x**0, scheme * x, scheme * x**2, scheme * x**3, (1 - scheme) * x**2,
+                                           (1 - scheme) * x)]
+    limit = WeightedFit(values[near], errors[near], columns[:-1])
+    free = WeightedFit(values[near], errors[near], columns)
+    return (limit.value[0], limit.error[0]), (free.value[-1] / abs(free.value[1]), free.error[-1] / abs(free.value[1]))
 
 
 def evaluate(report, runs_by_name, quick):
@@ -84,29 +98,39 @@ def evaluate(report, runs_by_name, quick):
     numbers = [[s.beta, s.phi, s.scheme, rms, Z, error, 100 * deviation, 100 * deviation_error]
                for s in every.values() for rms, Z, error, deviation, deviation_error
                in zip(s.rms, s.Z, s.error, s.deviation, s.deviation_error)]
-    report.data(["L_over_D", "phi", "scheme", "rms_step", "Z", "standard_error", "deviation_per_cent",
-                 "deviation_error_per_cent"], numbers)
+    report.numbers(["L_over_D", "phi", "scheme", "rms_step", "Z", "standard_error", "deviation_per_cent",
+                    "deviation_error_per_cent"], numbers)
     rows = [[f"{s.beta}", f"{s.phi}", s.scheme, *(f"{100 * d:+.2f}({100 * e:.2f})"
                                                  for d, e in zip(s.deviation, s.deviation_error))]
             for s in every.values()]
     report.table("Deviation of Z from the reference, in per cent (standard error of both), against the rms step in D.",
                  ["L/D", "phi", "scheme", *(f"{rms:g}" for rms in next(iter(every.values())).rms)], rows)
-    fits = []
     for s in every.values():
-        limit, order = s.limit(1 if s.scheme == "plain" else 2), s.order()
-        fits.append([f"{s.beta}", f"{s.phi}", s.scheme, with_error(*order, 2) if order else "too small to fit",
-                     with_error(*limit), with_error(s.reference, s.reference_error)])
-        report.compare(f"{s.label}, {s.scheme}, extrapolated to step 0", limit, (s.reference, s.reference_error), 0.005)
-        if s.scheme == "plain" and order:
-            report.compare(f"{s.label}, plain, order", order, (0.5, 0.0), 0.2)
-        if s.scheme == "corrected":
-            for rms, aim in AIMS.items():
-                point = numpy.flatnonzero(s.rms == rms)[0]
-                report.compare(f"{s.label}, corrected, rms step {rms}", (s.Z[point], s.error[point]),
-                               (s.reference, s.reference_error), aim)
-    report.table("Order of the error in the time step (1/2: in proportion to the rms step), and Z extrapolated to step 0.",
-                 ["L/D", "phi", "scheme", "order", "Z at step 0", "reference"], fits)
+        for rms, aim in AIMS.items() if s.scheme == "corrected" else ():
+            point = numpy.flatnonzero(s.rms == rms)[0]
+            report.compare(f"{s.label}, corrected, rms step {rms}", (s.Z[point], s.error[point]),
+                           (s.reference, s.reference_error), aim)
+    if not quick:
+        judge_orders(report, {state: [every[state, scheme] for scheme in SCHEMES] for state in states})
     draw(report, every)
+
+
+def judge_orders(report, by_state):
+    rows = []
+    for plain, corrected in by_state.values():
+        limit, left = fit_both(plain, corrected)
+        orders = [s.order() for s in (plain, corrected)]
+        rows.append([f"{plain.beta}", f"{plain.phi}",
+                     *(with_error(*order, 2) if order else "too small to fit" for order in orders),
+                     with_error(*(100 * value for value in left), 1), with_error(*limit),
+                     with_error(plain.reference, plain.reference_error)])
+        report.compare(f"{plain.label}, both schemes at step 0", limit, (plain.reference, plain.reference_error), 0.005)
+        report.compare(f"{plain.label}, plain, order", orders[0] or (math.nan, 0.0), (0.5, 0.0), 0.2)
+        report.compare(f"{plain.label}, what the correction leaves of the error of order 1/2", (1 + left[0], left[1]),
+                       (1.0, 0.0), 0.05)
+    report.table(f"Order of the error in the step in time (up to rms step {ORDER_UP_TO:g}; 1/2: in proportion to the rms step), what the correction "
+                 f"leaves of the term of order 1/2, and Z at step 0, from a fit to both schemes up to rms step {FIT_UP_TO:g}.",
+                 ["L/D", "phi", "order, plain", "order, corrected", "left of order 1/2, %", "Z at step 0", "reference"], rows)
 
 
 def draw(report, every):
