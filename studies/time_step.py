@@ -28,7 +28,7 @@ def runs(quick):
     return [Run(name=f"L{beta}_phi{phi}_rms{rms}_{scheme}",
                 scene={"seed": 2, "box": {"volume_fraction": phi},
                        "rods": {"count": 500 if quick else 1000, "length": float(beta)},
-                       "contact": {"brownian_correction": scheme == "corrected"},
+                       "contact": {"brownian_correction": scheme == "corrected", "overlap_limit": 0.9},
                        "time": {"rms_step": rms},
                        "solver": {"tolerance": 1e-4}},
                 equilibration=production // 10 + int(1000 * (0.03 / rms)**1.5),
