@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "jostle/io/scene_reader.hpp"
 #include "jostle/io/scene_writer.hpp"
@@ -71,19 +72,35 @@ void print_motion(const Scene& scene, const Mobility& mobility, const Rods& rods
     }
 }
 
+/// How a population changes in a time, without noise and stalling: its end, and its mean, over its beginning.
+struct PopulationGrowth {
+    double end = 1.0, mean = 1.0;
+};
+
+PopulationGrowth population_growth(const Scene& scene, double time) {
+    const GrowthLaw& growth = scene.growth;
+    if (growth.rate == 0.0) return {};
+    const double doubling = 0.5 * (growth.division_length + scene.rods.diameter) / growth.rate;
+    const double exponent = (std::numbers::ln2 / doubling - growth.death_rate) * time;
+    print("doubling time", with_unit(doubling, scene.units.system, dimension::time));
+    return {std::exp(exponent), exponent == 0.0 ? 1.0 : std::expm1(exponent) / exponent};
+}
+
 void print_cost(const Scene& scene, const Population& population, double phi, double dt) {
     const double equilibration = scene.time.equilibration.value_or(0.25 * scene.time.production);
     const double steps = std::ceil((equilibration + scene.time.production) / dt);
+    const PopulationGrowth growth = population_growth(scene, steps * dt);
+    const double count = population.count * growth.end;
+    if (scene.growth.rate > 0.0) print("N in the end, about", fmt::format("{:.3g}", count));
     const double rows = steps / static_cast<double>(scene.output.series_every);
     const double frames =
         scene.output.trajectory_every > 0 ? steps / static_cast<double>(scene.output.trajectory_every) : 0.0;
     print("steps", fmt::format("{:.6g}{}", steps,
                                scene.time.equilibration ? "" : " (if equilibration takes a quarter of production)"));
-    print("memory, about", fmt::format("{:.0f} MB", 20.0 + population.count * bytes_per_rod(phi) / 1e6));
-    print("disk, about",
-          fmt::format("{:.1f} MB", (rows * 400.0 + frames * population.count * 52.0 + population.count * 250.0) / 1e6));
+    print("memory, about", fmt::format("{:.0f} MB", 20.0 + count * bytes_per_rod(phi) / 1e6));
+    print("disk, about", fmt::format("{:.1f} MB", (rows * 400.0 + frames * count * 52.0 + count * 250.0) / 1e6));
     print("time on one thread, about",
-          fmt::format("{:.3g} s", steps * population.count * seconds_per_rod_and_step(phi)));
+          fmt::format("{:.3g} s", steps * population.count * growth.mean * seconds_per_rod_and_step(phi)));
 }
 
 }  // namespace

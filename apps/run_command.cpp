@@ -87,9 +87,12 @@ public:
         record_.write(simulation_, "running");
         show_progress();
         while (!length_.is_over(files_.series())) {
+            if (simulation_.rods().size() == 0) return die_out();
             const StepReport report = simulation_.step();
             if (const auto failure = failure_of(report)) return give_up(report, *failure);
             sums_.add(report);
+            if (scene_.growth.rate > 0.0) files_.append_lineage(simulation_);
+            if (simulation_.rods().size() == 0) continue;
             write_what_is_due();
             show_progress();
             if (const std::string reason = reason_to_stop(); !reason.empty()) return stop_early(reason);
@@ -109,7 +112,7 @@ private:
 
     double smallest_diameter() const {
         const auto& diameter = simulation_.rods().diameter;
-        return *std::min_element(diameter.begin(), diameter.end());
+        return diameter.empty() ? scene_.rods.diameter : *std::min_element(diameter.begin(), diameter.end());
     }
 
     void write_what_is_due() {
@@ -161,6 +164,16 @@ private:
             std::fprintf(stderr, "\njostle: stopped at step %llu (%s); run the same command again to go on\n",
                          static_cast<unsigned long long>(simulation_.clock().step), reason.c_str());
         return ExitCode::stopped_early;
+    }
+
+    /// All cells have died: there is nothing to average.
+    ExitCode die_out() {
+        checkpoint();
+        write_trajectory();
+        record_.write(simulation_, "extinct");
+        std::fprintf(stderr, "jostle: all cells have died by step %llu\n",
+                     static_cast<unsigned long long>(simulation_.clock().step));
+        return ExitCode::done;
     }
 
     ExitCode give_up(const StepReport& report, const std::string& failure) {

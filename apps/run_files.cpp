@@ -27,6 +27,34 @@ std::vector<SeriesColumn> contact_columns(UnitSystem units) {
             {"arm_j", length, "s_j", "position of the contact along the second rod's axis, from its centre", ""}};
 }
 
+std::vector<SeriesColumn> lineage_columns(UnitSystem units) {
+    return {{"step", "1", "k", "number of steps done", ""},
+            {"time", unit_of(units, dimension::time), "t", "simulated time", ""},
+            {"birth", "1", "", "1: a cell was born; 0: it died", ""},
+            {"id", "1", "i", "id of the cell", ""},
+            {"mother", "1", "", "id of the cell that divided, and lives on behind it; of a death: its own id", ""},
+            {"length", unit_of(units, dimension::length), "L", "length of the cell then", ""}};
+}
+
+/// Tables beside the series.
+struct SideTable {
+    std::string name;
+    bool wanted;
+    std::vector<SeriesColumn> columns;
+    std::uint64_t Checkpoint::*bytes;
+    std::uint64_t Checkpoint::*hash;
+};
+
+enum : std::size_t { contacts_table, lineage_table };
+
+std::array<SideTable, 2> side_tables(const Scene& scene) {
+    const UnitSystem units = scene.units.system;
+    return {{{"contacts", scene.output.contacts, contact_columns(units), &Checkpoint::contacts_bytes,
+              &Checkpoint::contacts_hash},
+             {"lineage", scene.growth.rate > 0.0, lineage_columns(units), &Checkpoint::lineage_bytes,
+              &Checkpoint::lineage_hash}}};
+}
+
 std::vector<std::string> names_of(const std::vector<SeriesColumn>& columns) {
     std::vector<std::string> names;
     for (const SeriesColumn& column : columns) names.push_back(column.name);
@@ -37,9 +65,10 @@ std::vector<std::string> names_of(const std::vector<SeriesColumn>& columns) {
 SeriesFile resumed_series(const RunDirectory& directory, const Scene& scene, const Checkpoint& checkpoint) {
     if (scene.output.trajectory_every > 0)
         TrajectoryJournal::require_frames(directory.file("trajectory.journal"), checkpoint.trajectory_bytes);
-    if (scene.output.contacts)
-        SeriesFile::require_prefix(directory.file("contacts.csv"), contact_columns(scene.units.system),
-                                   checkpoint.contacts_bytes, checkpoint.contacts_hash);
+    for (const SideTable& table : side_tables(scene))
+        if (table.wanted)
+            SeriesFile::require_prefix(directory.file(table.name + ".csv"), table.columns, checkpoint.*table.bytes,
+                                       checkpoint.*table.hash);
     return SeriesFile::resume(directory.file("series.csv"), series_columns(scene), checkpoint.series_bytes,
                               checkpoint.series_hash);
 }
@@ -49,6 +78,7 @@ SeriesFile resumed_series(const RunDirectory& directory, const Scene& scene, con
 RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::string resolved_scene,
                    const Simulation& simulation)
     : directory_(directory),
+      scene_(scene),
       resolved_scene_(std::move(resolved_scene)),
       series_file_(SeriesFile::create(directory.file("series.csv"), series_columns(scene))) {
     series_ = {directory.file("series.csv"), names_of(series_file_.columns()),
@@ -58,9 +88,11 @@ RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::strin
         journal_ = TrajectoryJournal::create(directory.file("trajectory.journal"));
         append_frame(simulation);
     }
-    if (scene.output.contacts) {
-        contacts_file_ = SeriesFile::create(directory.file("contacts.csv"), contact_columns(scene.units.system));
-        write_series_description(directory.file("contacts.json"), contacts_file_->columns());
+    const auto tables = side_tables(scene);
+    for (std::size_t k = 0; k < tables.size(); ++k) {
+        if (!tables[k].wanted) continue;
+        side_files_[k] = SeriesFile::create(directory.file(tables[k].name + ".csv"), tables[k].columns);
+        write_series_description(directory.file(tables[k].name + ".json"), tables[k].columns);
     }
     write_checkpoint(simulation, {});
 }
@@ -68,14 +100,17 @@ RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::strin
 RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::string resolved_scene,
                    const Checkpoint& checkpoint)
     : directory_(directory),
+      scene_(scene),
       resolved_scene_(std::move(resolved_scene)),
       series_file_(resumed_series(directory, scene, checkpoint)),
       series_(read_series(directory.file("series.csv"))) {
     if (scene.output.trajectory_every > 0)
         journal_ = TrajectoryJournal::resume(directory.file("trajectory.journal"), checkpoint.trajectory_bytes);
-    if (scene.output.contacts)
-        contacts_file_ = SeriesFile::resume(directory.file("contacts.csv"), contact_columns(scene.units.system),
-                                            checkpoint.contacts_bytes, checkpoint.contacts_hash);
+    const auto tables = side_tables(scene);
+    for (std::size_t k = 0; k < tables.size(); ++k)
+        if (tables[k].wanted)
+            side_files_[k] = SeriesFile::resume(directory.file(tables[k].name + ".csv"), tables[k].columns,
+                                                checkpoint.*tables[k].bytes, checkpoint.*tables[k].hash);
 }
 
 void RunFiles::append_row(const std::vector<double>& row) {
@@ -116,7 +151,20 @@ void RunFiles::append_contacts(const Simulation& simulation) {
                                          contact.normal.z,
                                          contact.arm_i,
                                          contact.arm_j};
-        contacts_file_->append(row);
+        side_files_[contacts_table]->append(row);
+    }
+}
+
+void RunFiles::append_lineage(const Simulation& simulation) {
+    const Clock& clock = simulation.clock();
+    for (const LineageEvent& event : simulation.lineage()) {
+        const std::vector<double> row = {static_cast<double>(clock.step),
+                                         clock.time,
+                                         event.kind == LineageEvent::Kind::birth ? 1.0 : 0.0,
+                                         static_cast<double>(event.id),
+                                         static_cast<double>(event.mother),
+                                         event.length};
+        side_files_[lineage_table]->append(row);
     }
 }
 
@@ -136,10 +184,12 @@ void RunFiles::write_checkpoint(const Simulation& simulation, const StepSums& su
         journal_->sync();
         checkpoint.trajectory_bytes = journal_->bytes();
     }
-    if (contacts_file_) {
-        contacts_file_->sync();
-        checkpoint.contacts_bytes = contacts_file_->bytes();
-        checkpoint.contacts_hash = contacts_file_->hash();
+    const auto tables = side_tables(scene_);
+    for (std::size_t k = 0; k < tables.size(); ++k) {
+        if (!side_files_[k]) continue;
+        side_files_[k]->sync();
+        checkpoint.*tables[k].bytes = side_files_[k]->bytes();
+        checkpoint.*tables[k].hash = side_files_[k]->hash();
     }
     jostle::write_checkpoint(directory_.path(), checkpoint);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "jostle/io/checkpoint.hpp"
@@ -26,6 +27,8 @@ public:
     void append_frame(const jostle::Simulation& simulation);
     /// The contacts with a force in the last step.
     void append_contacts(const jostle::Simulation& simulation);
+    /// Who was born and who died after the last step.
+    void append_lineage(const jostle::Simulation& simulation);
 
     /// Makes everything so far durable, and the point to go on from.
     void write_checkpoint(const jostle::Simulation& simulation, const StepSums& sums);
@@ -36,9 +39,10 @@ public:
 
 private:
     const jostle::RunDirectory& directory_;
+    const jostle::Scene& scene_;
     std::string resolved_scene_;
     jostle::SeriesFile series_file_;
     jostle::SeriesTable series_;
     std::optional<jostle::TrajectoryJournal> journal_;
-    std::optional<jostle::SeriesFile> contacts_file_;
+    std::array<std::optional<jostle::SeriesFile>, 2> side_files_;  ///< contacts, lineage
 };

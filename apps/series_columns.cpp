@@ -15,8 +15,8 @@ std::vector<SeriesColumn> series_columns(const Scene& scene) {
     std::vector<SeriesColumn> columns = {
         {"step", "1", "k", "number of steps done", ""},
         {"time", unit_of(units, dimension::time), "t", "simulated time", ""},
-        {"N", "1", "N", "number of rods", ""},
-        {"phi", "1", "phi", "volume of the rods over volume of the box", ""},
+        {"N", "1", "N", "number of rods at this step", ""},
+        {"phi", "1", "phi", "volume of the rods at this step over volume of the box", ""},
         {"Z", "1", "Z", "compressibility factor Pi/(n kT), mean over the steps since the last row", pressure_sign},
         {"pressure", stress, "Pi", "Tr Sigma/3 with the kinetic part n kT, mean over the steps since the last row",
          pressure_sign},
@@ -61,7 +61,7 @@ std::vector<double> series_row(const Simulation& simulation, const StepSums& sum
     const Rods& rods = simulation.rods();
     const double volume = simulation.box().volume();
     const double kT = simulation.settings().kT;
-    const double density = static_cast<double>(rods.size()) / volume;
+    const double density = sums.rods / sums.steps / volume;  // cells may have divided since the last row
     const Stress stress = assembly_stress(density, kT, (1.0 / sums.steps) * sums.collision_virial, volume);
     const NematicOrder order = nematic_order(rods.axis);
     std::vector<double> row = {static_cast<double>(simulation.clock().step),

@@ -8,6 +8,7 @@ using namespace jostle;
 
 void StepSums::add(const StepReport& report) {
     steps += 1.0;
+    rods += static_cast<double>(report.rods);
     collision_virial += report.collision_virial;
     centre_of_mass_virial += report.centre_of_mass_virial;
     centre_line_virial += report.centre_line_virial;
@@ -28,15 +29,15 @@ void StepSums::start_row() {
 }
 
 std::vector<double> StepSums::to_numbers() const {
-    std::vector<double> numbers = {steps,    contacts,    active_contacts, iterations,
-                                   residual, max_overlap, run_max_overlap, run_iterations};
+    std::vector<double> numbers = {steps,       contacts,        active_contacts, iterations, residual,
+                                   max_overlap, run_max_overlap, run_iterations,  rods};
     for (const Mat3* sum : {&collision_virial, &centre_of_mass_virial, &centre_line_virial})
         numbers.insert(numbers.end(), sum->m.begin(), sum->m.end());
     return numbers;
 }
 
 StepSums StepSums::from_numbers(const std::vector<double>& numbers) {
-    if (numbers.size() != 8 + 3 * 9)
+    if (numbers.size() != 9 + 3 * 9)
         throw InputError({.key = "checkpoint",
                           .problem = "it holds sums of another version of jostle",
                           .suggestion = "Start anew with --fresh"});
@@ -49,7 +50,8 @@ StepSums StepSums::from_numbers(const std::vector<double>& numbers) {
     sums.max_overlap = numbers[5];
     sums.run_max_overlap = numbers[6];
     sums.run_iterations = numbers[7];
-    auto from = numbers.begin() + 8;
+    sums.rods = numbers[8];
+    auto from = numbers.begin() + 9;
     for (Mat3* sum : {&sums.collision_virial, &sums.centre_of_mass_virial, &sums.centre_line_virial}) {
         std::copy(from, from + 9, sum->m.begin());
         from += 9;

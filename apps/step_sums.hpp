@@ -8,6 +8,7 @@
 struct StepSums {
     // since the last row
     double steps = 0.0;
+    double rods = 0.0;  ///< summed over the steps
     jostle::Mat3 collision_virial, centre_of_mass_virial, centre_line_virial;
     double contacts = 0.0;
     double active_contacts = 0.0;

@@ -194,7 +194,7 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     const std::size_t first = window.first_row;
     const std::string stress_unit = unit_of(scene.units.system, dimension::stress);
     const Rods& rods = simulation.rods();
-    const bool thermal = simulation.settings().kT > 0.0;
+    const bool thermal = simulation.settings().kT > 0.0, grows = scene.growth.rate > 0.0;
     const auto average_of = [&](const char* name) { return average(from_row(series.column(name), first)); };
     const Columns stress = window_columns(series, first, stress_column_names);
 
@@ -208,10 +208,10 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     summary["pressure"] = described(average_of("pressure"), stress_unit);
     summary["pressure_collision"] = described(average_of("pressure_collision"), stress_unit);
     summary["stress_collision"] = tensor_entry(stress, stress_unit);
-    summary["stress_kinetic"] = {
-        {"mean", static_cast<double>(rods.size()) / simulation.box().volume() * simulation.settings().kT},
-        {"unit", stress_unit},
-        {"definition", "n kT, on the diagonal"}};
+    summary["stress_kinetic"] = {{"mean", (grows ? average_of("N").mean : static_cast<double>(rods.size())) /
+                                              simulation.box().volume() * simulation.settings().kT},
+                                 {"unit", stress_unit},
+                                 {"definition", "n kT, on the diagonal"}};
     summary["principal_stresses_collision"] = {{"mean", mean_principal_stresses(stress)}, {"unit", stress_unit}};
     if (scene.output.stress_conventions)
         for (const auto& [name, columns] : {std::pair{"centre_of_mass", centre_of_mass_column_names},
@@ -229,7 +229,7 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     summary["production_rows"] = series.rows() - std::min(first, series.rows());
     summary["max_overlap"] = run_max_overlap / *std::max_element(rods.diameter.begin(), rods.diameter.end());
     Json oracles = Json::object();
-    if (thermal && scene.motion.self_propulsion == 0.0 && all_alike(rods))
+    if (thermal && scene.motion.self_propulsion == 0.0 && !grows && all_alike(rods))
         oracles["anisotropy"] = anisotropy_oracle(series, first, rods, stress);
     summary["oracles"] = oracles;
     return summary;

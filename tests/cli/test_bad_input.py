@@ -47,6 +47,21 @@ VALUES = [
     ("rods", "axis", [1, 0, 0], "is not used with rods.start", 'Set start = "aligned"'),
     ("contact", "model", "soft", "is not one of the words", '"wca"'),
     ("contact", "energy", 1.0, 'is not used with contact.model = "hard"', 'Set model = "wca"'),
+    ("growth", "rate", -1.0, "is negative", "at least 0"),
+    ("growth", "death_rate", 0.1, "is not used without growth.rate", "Add rate"),
+]
+# changes of a table [growth] with rate 0.1 and division length 5, what the message says
+GROWTH = [
+    ({"division_length": None}, "growth.division_length", "is missing", "Add division_length = 5"),
+    ({"division_length": 1.0}, "is not above what two daughters need", "greater than 1"),
+    ({"division_length": 2.0}, "is not above rods.length = 2", "greater than 2"),
+    ({"rate": 6.0}, "lengthens cells by 0.12 in a step of 0.02", "at most 5"),
+    ({"rate_deviation": -0.1}, "is negative", "at least 0"),
+    ({"division_deviation": 0.9}, "is outside the allowed range", "at most 0.5"),
+    ({"division": "size"}, "is not one of the words", 'Did you mean "sizer"?'),
+    ({"stall_force": 0.0}, "is zero", "greater than 0"),
+    ({"death_rate": -1.0}, "is negative", "at least 0"),
+    ({"division_every": 0}, "is outside the allowed range", "at least 1"),
 ]
 
 
@@ -76,6 +91,12 @@ def test_value(finished_copy, entry):
         line, at = int(line) - 1, "2"
     told = [] if "is an unknown table" in parts else [f"{table}.{key} = "]
     refuse(finished_copy, text, f"jostle: scene.toml:{line}:{at}: ", *told, *parts)
+
+
+@pytest.mark.parametrize("entry", GROWTH, ids=lambda entry: str(entry[0]))
+def test_growth(finished_copy, entry):
+    changes, *parts = entry
+    refuse(finished_copy, changed(RODS, growth={"rate": 0.1, "division_length": 5.0, **changes}), *parts)
 
 
 @pytest.mark.parametrize("table, key, example", [("rods", "count", "count = 2000"), ("rods", "length", "length = 5.0"),

@@ -90,7 +90,8 @@ def test_defaults_are_spelled_out(tmp_path):
     scene, derived = check(tmp_path, changed(RODS, time={"step": None}))
     assert scene["time"]["rms_step"] == 0.03 and "step" not in scene["time"]
     assert number(derived["rms step / D"]) == pytest.approx(0.03, rel=1e-3)
-    assert set(scene) == {"title", "seed", "units", "box", "rods", "fluid", "mobility", "motion", "contact", "solver",
+    assert set(scene) == {"title", "seed", "units", "box", "rods", "fluid", "mobility", "motion", "growth", "contact",
+                          "solver",
                           "time", "output"}
     assert scene["solver"] == {"method": "auto", "step_rule": "bb1", "residual": "length", "tolerance": 1e-5,
                                "max_iterations": 10000}

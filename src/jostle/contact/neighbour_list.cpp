@@ -187,7 +187,8 @@ double NeighbourList::find_extents(const Rods& rods, const Box& box, std::span<c
             moved += box.displacement(crossed);
         }
         const double extent =
-            farthest_displacement(moved, rods.axis[i] - reference_.axis[i], 0.5 * rods.length[i]) + reach[i];
+            farthest_displacement(moved, rods.axis[i] - reference_.axis[i], 0.5 * reference_.length[i]) +
+            0.5 * std::max(0.0, rods.length[i] - reference_.length[i]) + reach[i];
         set_extent(i, extent);
         return extent;
     });
@@ -207,10 +208,12 @@ void NeighbourList::build(const Rods& rods, const Box& box, double skin) {
     reference_.centre.resize(rods.size());
     reference_.axis.resize(rods.size());
     reference_.image.resize(rods.size());
+    reference_.length.resize(rods.size());
     parallel_for(rods.size(), [&](std::size_t i) {
         reference_.centre[i] = rods.centre[i];
         reference_.axis[i] = rods.axis[i];
         reference_.image[i] = rods.image[i];
+        reference_.length[i] = rods.length[i];
     });
     const double longest =
         parallel_max(rods.size(), 0.0, [&](std::size_t i) { return rods.length[i] + rods.diameter[i]; });

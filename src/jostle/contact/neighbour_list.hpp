@@ -95,6 +95,7 @@ private:
     struct Reference {
         std::vector<Vec3> centre, axis;
         std::vector<Image> image;
+        std::vector<double> length;
     } reference_;  ///< (N) the rods when the list was built
     std::vector<std::uint32_t> i_, j_;
     std::vector<float> gap_;            ///< when the list was built, rounded down

@@ -13,7 +13,7 @@ namespace {
 
 // The first byte is no text and the last is a newline, so that a file mangled as text no longer matches.
 constexpr std::string_view magic = "\x89JOSTLE\n";
-constexpr std::uint32_t format_version = 1;
+constexpr std::uint32_t format_version = 2;
 constexpr std::size_t header_bytes = 24;
 constexpr std::size_t checksum_bytes = 8;
 constexpr const char* start_again = "Start the run again with --fresh";
@@ -26,6 +26,8 @@ void put_rods(ByteWriter& writer, const Rods& rods) {
     writer.put_elements(rods.diameter);
     writer.put_elements(rods.id);
     writer.put_elements(rods.image);
+    writer.put(static_cast<std::uint64_t>(rods.cycle.size()));
+    writer.put_elements(rods.cycle);
 }
 
 Rods take_rods(ByteReader& reader) {
@@ -37,6 +39,9 @@ Rods take_rods(ByteReader& reader) {
     reader.take_elements(count, rods.diameter);
     reader.take_elements(count, rods.id);
     reader.take_elements(count, rods.image);
+    const auto cycles = reader.take<std::uint64_t>();
+    if (cycles != 0 && cycles != count) throw std::out_of_range("cell cycles and rods differ in number");
+    reader.take_elements(cycles, rods.cycle);
     return rods;
 }
 
@@ -56,6 +61,8 @@ std::string payload_of(const Checkpoint& checkpoint) {
     writer.put(checkpoint.trajectory_bytes);
     writer.put(checkpoint.contacts_bytes);
     writer.put(checkpoint.contacts_hash);
+    writer.put(checkpoint.lineage_bytes);
+    writer.put(checkpoint.lineage_hash);
     return writer.bytes();
 }
 
@@ -76,6 +83,8 @@ Checkpoint from_payload(std::string_view payload) {
     checkpoint.trajectory_bytes = reader.take<std::uint64_t>();
     checkpoint.contacts_bytes = reader.take<std::uint64_t>();
     checkpoint.contacts_hash = reader.take<std::uint64_t>();
+    checkpoint.lineage_bytes = reader.take<std::uint64_t>();
+    checkpoint.lineage_hash = reader.take<std::uint64_t>();
     if (!reader.empty()) throw std::out_of_range("bytes are left over");
     return checkpoint;
 }

@@ -91,6 +91,9 @@ void refuse_missing(const TomlDocument& document, const Scene& scene) {
         required.push_back({"fluid", "viscosity", "\"1e-3 Pa s\""});
         required.push_back({"fluid", "kT", "\"0.00411 pN um\""});
     }
+    if (scene.growth.rate > 0.0)
+        required.push_back(
+            {"growth", "division_length", fmt::format("{:.6g}", 2.0 * scene.rods.length + scene.rods.diameter)});
     for (const auto& [table, name, example] : required)
         if (!document.find(table, name))
             throw InputError({table + "." + name, "", "is missing", "",
@@ -174,6 +177,8 @@ Scene parse_scene(std::string_view text, std::string file_name) {
     refuse_missing(document, scene);
     refuse_unused(document, scene);
     validate_with_place(document, scene);
+    // A growing population has no equilibrium to wait for.
+    if (scene.growth.rate > 0.0 && !scene.time.equilibration) scene.time.equilibration = 0.0;
     return scene;
 }
 

@@ -7,7 +7,7 @@
 namespace jostle {
 
 /// Streams keep the random numbers of different purposes independent of one another.
-enum class Stream : std::uint32_t { brownian = 1, start = 2, test = 3 };
+enum class Stream : std::uint32_t { brownian = 1, start = 2, test = 3, growth = 4, death = 5 };
 
 /// Random numbers as a pure function of (seed, step, stream, id, draw): Philox4x32-10 (Salmon et al. 2011).
 ///

@@ -11,6 +11,14 @@ namespace jostle {
 /// How many box edges along x, y, z lie between a rod (or a contact partner) and its wrapped copy.
 using Image = std::array<std::int32_t, 3>;
 
+/// Where a rod that grows stands between its birth and its division (src/jostle/growth).
+struct CellCycle {
+    double growth_rate = 0.0;      ///< of its length when nothing presses on it (length/time)
+    double division_at = 0.0;      ///< the length, or with a timer the age, at which it divides
+    std::uint64_t birth_step = 0;  ///< the step after which it was born
+    std::uint64_t divisions = 0;   ///< in its line of mothers since the start
+};
+
 /// The rods of an assembly: a structure of arrays, one row a rod.
 ///
 /// A rod is a spherocylinder: the points within diameter/2 of the segment centre +- (length/2) axis.
@@ -22,6 +30,7 @@ struct Rods {
     std::vector<double> diameter;   ///< (N) > 0
     std::vector<std::uint64_t> id;  ///< (N) permanent, never reused
     std::vector<Image> image;       ///< (N) box edges crossed since the start: unwrapped = centre + image * edges
+    std::vector<CellCycle> cycle;   ///< (N), or empty where rods do not grow
 
     std::size_t size() const { return centre.size(); }
 

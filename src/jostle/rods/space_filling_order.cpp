@@ -67,6 +67,7 @@ Rods reordered(const Rods& rods, std::span<const std::uint32_t> order) {
     take(result.diameter, rods.diameter);
     take(result.id, rods.id);
     take(result.image, rods.image);
+    if (!rods.cycle.empty()) take(result.cycle, rods.cycle);
     return result;
 }
 

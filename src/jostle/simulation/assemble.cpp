@@ -1,12 +1,14 @@
 #include "jostle/simulation/assemble.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "jostle/contact/wca_forces.hpp"
 #include "jostle/mobility/drag.hpp"
 #include "jostle/mobility/drag_mobility.hpp"
 #include "jostle/motion/brownian_motion.hpp"
 #include "jostle/motion/self_propulsion.hpp"
+#include "jostle/simulation/validate_scene.hpp"
 
 namespace jostle {
 
@@ -35,10 +37,30 @@ double fastest_diffusion(double kT, const Mobility& mobility, std::size_t rod_co
 }
 
 double time_step(const Scene& scene, const Mobility& mobility, const Rods& rods) {
-    if (scene.time.step) return *scene.time.step;
-    const double length = *scene.time.rms_step * *std::min_element(rods.diameter.begin(), rods.diameter.end());
-    return length * length / (2.0 * fastest_diffusion(thermal_energy(scene), mobility, rods.size()));
+    double step = 0.0;
+    if (scene.time.step) {
+        step = *scene.time.step;
+    } else {
+        const double length = *scene.time.rms_step * *std::min_element(rods.diameter.begin(), rods.diameter.end());
+        step = length * length / (2.0 * fastest_diffusion(thermal_energy(scene), mobility, rods.size()));
+    }
+    require_short_growth(scene, step);
+    return step;
 }
+
+namespace {
+
+/// Ids at the start are 0 ... count - 1, or what a file holds.
+constexpr int founder_bits_of_file = 31;
+
+void set_growth(const Scene& scene, SimulationSettings& settings) {
+    settings.growth = scene.growth;
+    settings.founder_bits = scene.rods.start == StartKind::file
+                                ? founder_bits_of_file
+                                : static_cast<int>(std::bit_width(scene.rods.count - 1));
+}
+
+}  // namespace
 
 Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock) {
     auto mobility = make_mobility(scene, rods);
@@ -62,6 +84,7 @@ Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock) 
     settings.lcp.step_rule = scene.solver.step_rule == StepRule::bb1   ? BarzilaiBorwein::bb1
                              : scene.solver.step_rule == StepRule::bb2 ? BarzilaiBorwein::bb2
                                                                        : BarzilaiBorwein::alternating;
+    if (scene.growth.rate > 0.0) set_growth(scene, settings);
     std::vector<std::unique_ptr<Motion>> motions;
     if (settings.kT > 0.0) motions.push_back(std::make_unique<BrownianMotion>(settings.kT, *mobility));
     if (scene.motion.self_propulsion != 0.0)

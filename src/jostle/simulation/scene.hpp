@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "jostle/growth/growth_law.hpp"
 #include "jostle/math/vec3.hpp"
 
 namespace jostle {
@@ -67,6 +68,8 @@ struct Scene {
         double self_propulsion = 0.0;  // speed along the axis
         bool operator==(const MotionTable&) const = default;
     } motion;
+
+    GrowthLaw growth;  // rate 0: none
 
     struct ContactTable {
         ContactModel model = ContactModel::hard;  // "hard": the contact problem; "wca": a soft potential

@@ -82,6 +82,15 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("mobility", "model", scene.mobility.model, Plain{});
     visit("motion", "brownian", scene.motion.brownian, Plain{});
     visit("motion", "self_propulsion", scene.motion.self_propulsion, Quantity{dim::speed, zero_or_positive});
+    visit("growth", "rate", scene.growth.rate, Quantity{dim::speed, zero_or_positive});
+    visit("growth", "rate_deviation", scene.growth.rate_deviation, Quantity{dim::none, {0.0, 0.5}});
+    visit("growth", "division", scene.growth.division, Plain{});
+    visit("growth", "division_length", scene.growth.division_length, Quantity{dim::length, positive});
+    visit("growth", "division_deviation", scene.growth.division_deviation, Quantity{dim::none, {0.0, 0.5}});
+    visit("growth", "daughters", scene.growth.daughters, Plain{});
+    visit("growth", "stall_force", scene.growth.stall_force, Quantity{dim::force, positive});
+    visit("growth", "death_rate", scene.growth.death_rate, Quantity{dim::rate, zero_or_positive});
+    visit("growth", "division_every", scene.growth.division_every, Count{1});
     visit("contact", "model", scene.contact.model, Plain{});
     visit("contact", "energy", scene.contact.energy, Quantity{dim::energy, positive, true});
     visit("contact", "brownian_correction", scene.contact.brownian_correction, Plain{});
@@ -117,6 +126,14 @@ constexpr auto words(StartKind) {
 constexpr auto words(MobilityModel) {
     return std::to_array<std::pair<std::string_view, MobilityModel>>(
         {{"slender_body", MobilityModel::slender_body}, {"finite_aspect_ratio", MobilityModel::finite_aspect_ratio}});
+}
+constexpr auto words(DivisionRule) {
+    return std::to_array<std::pair<std::string_view, DivisionRule>>(
+        {{"sizer", DivisionRule::sizer}, {"adder", DivisionRule::adder}, {"timer", DivisionRule::timer}});
+}
+constexpr auto words(DaughterDirection) {
+    return std::to_array<std::pair<std::string_view, DaughterDirection>>(
+        {{"same", DaughterDirection::same}, {"opposite", DaughterDirection::opposite}});
 }
 constexpr auto words(ContactModel) {
     return std::to_array<std::pair<std::string_view, ContactModel>>(

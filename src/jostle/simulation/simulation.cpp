@@ -45,18 +45,26 @@ Simulation::Simulation(Box box, Rods rods, Clock clock, std::unique_ptr<Mobility
         throw InputError({.key = "time.step",
                           .value = std::to_string(settings_.time_step),
                           .problem = "the time step must be positive"});
+    if (settings_.growth) {
+        growth_.emplace(*settings_.growth, settings_.seed, settings_.founder_bits);
+        if (rods_.cycle.empty()) growth_->found(rods_);
+    }
     take_over_rods();
 }
 
 /// Makes everything that belongs to rows anew.
 void Simulation::take_over_rods() {
-    mobility_->update(rods_);
     search_.invalidate();
     known_.resize(rods_.size());
     displacement_.resize(rods_.size());
     moved_.centre.resize(rods_.size());
     moved_.axis.resize(rods_.size());
     pushes_.assign(rods_.size(), {});
+    find_mobilities();
+}
+
+void Simulation::find_mobilities() {
+    mobility_->update(rods_);
     shift_.assign(rods_.size(), 0.0);
     if (!settings_.brownian_correction) return;
     parallel_for(rods_.size(), [&](std::size_t i) {

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "jostle/contact/collision_search.hpp"
+#include "jostle/growth/growth.hpp"
 #include "jostle/mobility/mobility.hpp"
 #include "jostle/motion/motion.hpp"
 #include "jostle/rods/box.hpp"
@@ -28,6 +31,8 @@ struct SimulationSettings {
     SolverMethod method = SolverMethod::automatic;
     LcpSettings lcp;                  ///< tolerance as a length
     bool stress_conventions = false;  ///< other conventions of the stress are measured, too
+    std::optional<GrowthLaw> growth;
+    int founder_bits = 0;  ///< ids of the rods at the start are below 2^founder_bits
 };
 
 /// Rods in a box, and the step that moves them.
@@ -47,6 +52,8 @@ public:
     const Rods& rods() const { return rods_; }
     const Box& box() const { return box_; }
     const Clock& clock() const { return clock_; }
+    /// Who was born and who died after the last step.
+    std::span<const LineageEvent> lineage() const { return lineage_; }
     const Mobility& mobility() const { return *mobility_; }
     const SimulationSettings& settings() const { return settings_; }
 
@@ -62,8 +69,10 @@ private:
     void repel(StepReport& report);
     void measure_stress(StepReport& report);
     void advance();
+    void grow();
 
     void take_over_rods();
+    void find_mobilities();
     RodMotion motion() const { return {moved_.centre, moved_.axis, displacement_, shift_}; }
     void extend_gap_velocities(const DelassusOperator& matrix, std::vector<double>& b) const;
     bool add_missed_contacts(const ContactMatrix& contact_matrix, const ContactSolution& solution, bool final);
@@ -77,6 +86,8 @@ private:
     std::unique_ptr<Mobility> mobility_;
     std::vector<std::unique_ptr<Motion>> motions_;
     SimulationSettings settings_;
+    std::optional<Growth> growth_;
+    std::vector<LineageEvent> lineage_;
 
     CollisionSearch search_;
     std::vector<double> shift_;         ///< (N) upper bound of each rod's part in the shift of a gap

@@ -37,6 +37,7 @@ StepReport Simulation::step() {
     StepReport report;
     report.step = clock_.step;
     report.time = clock_.time;
+    report.rods = rods_.size();
     PhaseTimer timer(report);
 
     renumber();
@@ -53,6 +54,7 @@ StepReport Simulation::step() {
     measure_stress(report);
     timer.finish(StepPhase::measure_stress);
     advance();
+    grow();
     timer.finish(StepPhase::advance);
     return report;
 }
@@ -208,6 +210,18 @@ void Simulation::advance() {
     parallel_for(rods_.size(), [&](std::size_t i) { box_.wrap(rods_.centre[i], rods_.image[i]); });
     ++clock_.step;
     clock_.time = static_cast<double>(clock_.step) * settings_.time_step;
+}
+
+// Theory 5: between two steps cells lengthen, and now and then divide or die.
+void Simulation::grow() {
+    if (!growth_) return;
+    growth_->lengthen(rods_, solution_.rods, solution_.forces, settings_.time_step);
+    lineage_.clear();
+    if (growth_->is_due(clock_.step)) lineage_ = growth_->divide(rods_, box_, clock_.step, settings_.time_step);
+    if (lineage_.empty())
+        find_mobilities();
+    else
+        take_over_rods();
 }
 
 }  // namespace jostle

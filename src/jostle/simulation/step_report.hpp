@@ -19,6 +19,7 @@ inline constexpr std::array<const char*, step_phase_count> step_phase_names = {
 struct StepReport {
     std::uint64_t step = 0;                   ///< number of the step; its forces act from `time` to `time` + dt
     double time = 0.0;                        ///< when it began
+    std::size_t rods = 0;                     ///< in the step
     LcpStatus status = LcpStatus::converged;  ///< if not converged, the rods have not been moved
     double residual = 0.0;         ///< of the contact problem, in the chosen measure (a length, or the paper's norm)
     std::uint64_t iterations = 0;  ///< applications of A

@@ -16,6 +16,8 @@ namespace jostle {
 
 namespace {
 
+/// b = 2 ln(2 L/D) - 1 > 0, theory, eq. 2.10: below, the drag of a slender body across and along the axis is negative.
+const double slender_limit = std::exp(0.5) / 2.0;
 constexpr double largest_step_number = 1e15;  // counts of steps stay exact as double
 
 [[noreturn]] void refuse(std::string key, std::string value, std::string problem, std::string allowed,
@@ -148,15 +150,36 @@ void check_packing(const Scene& scene) {
 }
 
 void check_mobility(const Scene& scene) {
-    // b = 2 ln(2 L/D) - 1 > 0, theory, eq. 2.10: below, the drag across and along the axis is negative
-    const double limit = std::exp(0.5) / 2.0;
     const double aspect_ratio = scene.rods.length / scene.rods.diameter;
-    if (scene.mobility.model == MobilityModel::slender_body && !(aspect_ratio > limit))
+    if (scene.mobility.model == MobilityModel::slender_body && !(aspect_ratio > slender_limit))
         refuse("mobility.model", "\"slender_body\"",
                fmt::format("gives rods of L/D = {} a negative drag: it holds for slender rods only",
                            rounded(aspect_ratio)),
-               fmt::format("L/D greater than {:.3f}", limit),
+               fmt::format("L/D greater than {:.3f}", slender_limit),
                "Use model = \"finite_aspect_ratio\", which holds for every L/D");
+}
+
+void check_growth(const Scene& scene) {
+    const GrowthLaw& growth = scene.growth;
+    if (growth.rate == 0.0) return;
+    if (!(growth.division_length > scene.rods.diameter))
+        refuse(
+            "growth.division_length", text(growth.division_length),
+            fmt::format("is not above what two daughters need: each gets half of what the length exceeds the diameter, "
+                        "{}, by",
+                        scene.rods.diameter),
+            fmt::format("greater than {}", scene.rods.diameter), "");
+    if (scene.rods.start != StartKind::file && !(growth.division_length > scene.rods.length))
+        refuse("growth.division_length", text(growth.division_length),
+               fmt::format("is not above rods.length = {}, at which cells start", scene.rods.length),
+               fmt::format("greater than {}", scene.rods.length), "");
+    const double daughter = 0.5 * (growth.division_length - scene.rods.diameter) / scene.rods.diameter;
+    if (scene.mobility.model == MobilityModel::slender_body && !(daughter > slender_limit))
+        refuse(
+            "growth.division_length", text(growth.division_length),
+            fmt::format("makes daughters of L/D = {}, too short for the mobility \"slender_body\"", rounded(daughter)),
+            fmt::format("greater than {}", rounded((2.0 * slender_limit + 1.0) * scene.rods.diameter)),
+            "Or use model = \"finite_aspect_ratio\", which holds for every L/D");
 }
 
 void check_solver(const Scene& scene) {
@@ -193,6 +216,7 @@ void check_time(const Scene& scene) {
     check_rms_step(scene);
     if (!scene.time.step) return;
     const double step = *scene.time.step;
+    require_short_growth(scene, step);
     if (scene.time.production < step)
         refuse("time.production", text(scene.time.production), "is shorter than one step",
                fmt::format("at least time.step = {}", step), "");
@@ -216,8 +240,19 @@ void validate(const Scene& scene) {
         validate_box(scene, rods_volume(scene), scene.rods.diameter);
     }
     check_mobility(scene);
+    check_growth(scene);
     check_solver(scene);
     check_time(scene);
+}
+
+void require_short_growth(const Scene& scene, double time_step) {
+    const double longest = 0.1 * scene.rods.diameter, of_step = scene.growth.rate * time_step;
+    if (of_step > longest)
+        refuse("growth.rate", text(scene.growth.rate),
+               fmt::format("lengthens cells by {} in a step of {}: contacts cannot follow", rounded(of_step),
+                           rounded(time_step)),
+               fmt::format("at most {}, a tenth of the diameter in a step", rounded(longest / time_step)),
+               "Use a shorter time.step");
 }
 
 void validate_box(const Scene& scene, double rods_volume, double largest_diameter) {
@@ -287,6 +322,11 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
         for (const char* key : {"contact.brownian_correction", "contact.range", "solver.method", "solver.step_rule",
                                 "solver.residual", "solver.tolerance", "solver.max_iterations"})
             unused.push_back({key, with_model + ": there is no contact problem", "Remove it"});
+    if (scene.growth.rate == 0.0)
+        for (const char* key :
+             {"growth.rate_deviation", "growth.division", "growth.division_length", "growth.division_deviation",
+              "growth.daughters", "growth.stall_force", "growth.death_rate", "growth.division_every"})
+            unused.push_back({key, "is not used without growth.rate", "Add rate under [growth], or remove it"});
     if (start == StartKind::file && scene.rods.count == 0)
         unused.push_back({"rods.count", with + ": the file tells", "Remove count"});
     return unused;

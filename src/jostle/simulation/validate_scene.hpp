@@ -24,6 +24,9 @@ struct UnusedKey {
 /// The keys that mean nothing in this scene: to give one is an error, and a written scene leaves them out.
 std::vector<UnusedKey> unused_keys(const Scene& scene);
 
+/// Throws InputError if cells would lengthen by more than a tenth of their diameter in a step.
+void require_short_growth(const Scene& scene, double time_step);
+
 /// Whether rods of `rods_volume` in all, none thicker than `largest_diameter`, can be in the box of the scene at all.
 ///
 /// Throws InputError if an edge is shorter than the diameter or the volume fraction is not below 1.

@@ -78,7 +78,7 @@ TEST_CASE("no quantity may be nan, infinite or out of bounds, whichever key it i
     std::string key;
     int quantities = 0;
     while (set_quantity(counted, quantities, 1.0, key)) ++quantities;
-    CHECK(quantities == 17);
+    CHECK(quantities == 23);
     for (int index = 0; index < quantities; ++index)
         for (const double value : {not_a_number, infinity, -infinity, 1e300, -1e300}) {
             std::string changed, message;
@@ -90,6 +90,10 @@ TEST_CASE("no quantity may be nan, infinite or out of bounds, whichever key it i
                     if (changed == "rods.axis") s.rods.start = StartKind::aligned;
                     if (changed == "box.edges") s.box.volume_fraction.reset();
                     if (changed == "time.rms_step") s.time.step.reset();
+                    if (changed.starts_with("growth.")) {
+                        s.growth.rate = 0.1;
+                        s.growth.division_length = 2.0 * s.rods.length + s.rods.diameter;
+                    }
                     set_quantity(s, index, value, changed);
                 },
                 &message);

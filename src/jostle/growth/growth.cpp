@@ -1,0 +1,158 @@
+#include "jostle/growth/growth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "jostle/error/input_error.hpp"
+#include "jostle/math/random.hpp"
+#include "jostle/parallel/parallel_for.hpp"
+
+namespace jostle {
+
+namespace {
+
+constexpr int id_bits = 53;           ///< ids stay exact as double, as which tables hold them
+constexpr double least_factor = 0.2;  ///< of a drawn rate or threshold to its mean
+
+double noisy_factor(double deviation, double normal) {
+    return std::max(least_factor, 1.0 + deviation * normal);
+}
+
+/// Takes out the rows that are marked; the others keep their order.
+void remove_rows(Rods& rods, const std::vector<bool>& marked) {
+    const auto keep = [&](auto& values) {
+        std::size_t to = 0;
+        for (std::size_t from = 0; from < marked.size(); ++from)
+            if (!marked[from]) values[to++] = values[from];
+        values.resize(to);
+    };
+    keep(rods.centre);
+    keep(rods.axis);
+    keep(rods.length);
+    keep(rods.diameter);
+    keep(rods.id);
+    keep(rods.image);
+    keep(rods.cycle);
+}
+
+}  // namespace
+
+Growth::Growth(const GrowthLaw& law, std::uint64_t seed, int founder_bits)
+    : law_(law), seed_(seed), founder_bits_(founder_bits) {}
+
+void Growth::found(Rods& rods) const {
+    rods.cycle.clear();
+    for (std::size_t i = 0; i < rods.size(); ++i) {
+        if (rods.id[i] >> founder_bits_ != 0)
+            throw InputError({.key = "rods.file",
+                              .value = "id " + std::to_string(rods.id[i]),
+                              .problem = "is too large for rods that divide: daughters' ids are made from it",
+                              .allowed = "ids below " + std::to_string(std::uint64_t{1} << founder_bits_),
+                              .suggestion = "Number the rods from 0",
+                              .place = {}});
+        rods.cycle.push_back(newborn(rods.id[i], rods.length[i], rods.diameter[i], 0, 0));
+    }
+}
+
+CellCycle Growth::newborn(std::uint64_t id, double length, double diameter, std::uint64_t step,
+                          std::uint64_t divisions) const {
+    Normals xi{};
+    fill_normals({seed_, divisions, Stream::growth, 0}, {&id, 1}, {&xi, 1});
+    const double added = 0.5 * (law_.division_length + diameter), factor = noisy_factor(law_.division_deviation, xi[1]);
+    CellCycle cycle;
+    cycle.growth_rate = law_.rate * noisy_factor(law_.rate_deviation, xi[0]);
+    cycle.birth_step = step;
+    cycle.divisions = divisions;
+    switch (law_.division) {
+        case DivisionRule::sizer:
+            cycle.division_at = law_.division_length * factor;
+            break;
+        case DivisionRule::adder:
+            cycle.division_at = length + added * factor;
+            break;
+        case DivisionRule::timer:
+            cycle.division_at = added / law_.rate * factor;
+            break;
+    }
+    return cycle;
+}
+
+void Growth::lengthen(Rods& rods, std::span<const std::uint32_t> rows, std::span<const ContactForce> forces,
+                      double time_step) const {
+    std::vector<double> share;  // of its rate that a cell grows by
+    if (law_.stall_force) {
+        share.assign(rods.size(), 1.0);
+        parallel_for(rows.size(), [&](std::size_t k) {
+            const std::uint32_t row = rows[k];
+            if (rods.length[row] == 0.0) return;
+            const double compression = -dot(forces[k].lever, rods.axis[row]) / rods.length[row];
+            share[row] = std::clamp(1.0 - compression / *law_.stall_force, 0.0, 1.0);
+        });
+    }
+    parallel_for(rods.size(), [&](std::size_t i) {
+        rods.length[i] += rods.cycle[i].growth_rate * time_step * (share.empty() ? 1.0 : share[i]);
+    });
+}
+
+std::vector<LineageEvent> Growth::divide(Rods& rods, const Box& box, std::uint64_t step, double time_step) const {
+    std::vector<LineageEvent> events;
+    const std::size_t count = rods.size();
+    std::vector<bool> dead(count, false);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (law_.death_rate > 0.0 && dies(rods.id[i], step, time_step)) {
+            dead[i] = true;
+            events.push_back({LineageEvent::Kind::death, rods.id[i], rods.id[i], rods.length[i]});
+        } else if (divides(rods, i, step, time_step)) {
+            events.push_back(split(rods, i, box, step));
+            dead.push_back(false);
+        }
+    }
+    if (law_.death_rate > 0.0) remove_rows(rods, dead);
+    return events;
+}
+
+bool Growth::divides(const Rods& rods, std::size_t row, std::uint64_t step, double time_step) const {
+    // Both daughters need room: a cell no longer than its diameter waits.
+    if (rods.length[row] < rods.diameter[row]) return false;
+    const CellCycle& cycle = rods.cycle[row];
+    const double measured = law_.division == DivisionRule::timer
+                                ? static_cast<double>(step - cycle.birth_step) * time_step
+                                : rods.length[row];
+    return measured >= cycle.division_at * (1.0 - 1e-12);
+}
+
+bool Growth::dies(std::uint64_t id, std::uint64_t step, double time_step) const {
+    const double interval = static_cast<double>(law_.division_every) * time_step;
+    return uniform4({seed_, step, Stream::death, id}, 0)[0] < -std::expm1(-law_.death_rate * interval);
+}
+
+LineageEvent Growth::split(Rods& rods, std::size_t row, const Box& box, std::uint64_t step) const {
+    const std::uint64_t mother = rods.id[row], divisions = rods.cycle[row].divisions;
+    if (founder_bits_ + static_cast<int>(divisions) >= id_bits)
+        throw InputError(
+            {.key = "growth",
+             .value = "cell " + std::to_string(mother),
+             .problem = "has had " + std::to_string(divisions) + " divisions in its line",
+             .allowed = "at most " + std::to_string(id_bits - founder_bits_) + ": ids cannot tell more apart",
+             .suggestion = "Start anew from its rods",
+             .place = {}});
+    const std::uint64_t daughter = mother | std::uint64_t{1} << (founder_bits_ + static_cast<int>(divisions));
+    const double diameter = rods.diameter[row], length = 0.5 * (rods.length[row] - diameter);
+    const Vec3 axis = rods.axis[row], step_along = 0.25 * (rods.length[row] + diameter) * axis;
+    const Vec3 front = rods.centre[row] + step_along;
+    const Image image = rods.image[row];
+
+    rods.centre[row] = rods.centre[row] - step_along;
+    rods.length[row] = length;
+    rods.cycle[row] = newborn(mother, length, diameter, step, divisions + 1);
+    box.wrap(rods.centre[row], rods.image[row]);
+
+    rods.push_back(daughter, front, law_.daughters == DaughterDirection::same ? axis : -axis, length, diameter);
+    rods.image.back() = image;
+    rods.cycle.push_back(newborn(daughter, length, diameter, step, divisions + 1));
+    box.wrap(rods.centre.back(), rods.image.back());
+    return {LineageEvent::Kind::birth, daughter, mother, length};
+}
+
+}  // namespace jostle

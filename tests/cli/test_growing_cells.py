@@ -1,0 +1,73 @@
+"""Cells that grow, divide and die: files whose number of rods changes, and runs that stop between divisions."""
+
+import json
+import signal
+
+import h5py
+import numpy as np
+
+from jostle_command import (DONE, STOPPED, changed, column, finish, mean, require_same_results, run, start, wait_until,
+                            write_scene)
+
+# Ten cells, three generations, a little noise; every file written, no two of the intervals in step.
+CELLS = {
+    "seed": 4,
+    "box": {"edges": [20.0, 20.0, 20.0]},
+    "rods": {"count": 10, "length": 2.0},
+    "growth": {"rate": 1.0, "rate_deviation": 0.1, "division_length": 5.0, "division_deviation": 0.05,
+               "death_rate": 0.02},
+    "time": {"step": 0.01, "production": 11.0},
+    "output": {"series_every": 5, "trajectory_every": 12, "checkpoint_every": 32, "contacts": True},
+}
+
+
+def test_files_follow_the_number_of_cells(tmp_path):
+    write_scene(tmp_path, CELLS)
+    folder = finish(tmp_path)
+    births = column(folder / "lineage.csv", "birth")
+    alive = 10 + sum(1 if birth else -1 for birth in births)
+    assert sum(births) > 50 and len(births) - sum(births) > 2
+    assert column(folder / "series.csv", "N")[-1] == alive
+    ids = column(folder / "lineage.csv", "id")
+    born = {id for id, birth in zip(ids, births) if birth} | set(range(10))
+    assert len(born) == 10 + sum(births)
+    assert set(column(folder / "lineage.csv", "mother")) <= born
+    with h5py.File(folder / "trajectory.h5") as file:
+        rods = file["particles/rods"]
+        id_of_frame = rods["id/value"][...]
+        counts = (id_of_frame >= 0).sum(axis=1)
+        assert counts[0] == 10 and counts.max() == id_of_frame.shape[1]
+        for frame in (0, len(counts) // 2, -1):
+            there = id_of_frame[frame] >= 0
+            assert len(set(id_of_frame[frame][there])) == counts[frame]
+            lengths = rods["length/value"][frame]
+            assert np.all((lengths[there] >= 1.0) & (lengths[there] < 6.0)) and np.all(np.isnan(lengths[~there]))
+    summary = json.loads((folder / "summary.json").read_text())
+    assert summary["equilibration_time"] == 0.0 and summary["oracles"] == {}
+    assert summary["rods"] == alive and mean(folder, "Z") > 1.0
+
+
+def test_stopped_and_resumed_across_divisions(tmp_path):
+    """Stopped by a signal in several places: the same bits in every file as in one go."""
+    write_scene(tmp_path / "whole", CELLS)
+    whole = finish(tmp_path / "whole")
+    folder = tmp_path / "parts"
+    write_scene(folder, CELLS)
+    series = folder / "run" / "series.csv"
+    for rows in (20, 90, 150):
+        process = start(folder)
+        wait_until(lambda rows=rows: series.exists() and series.read_bytes().count(b"\n") > rows, process)
+        process.send_signal(signal.SIGINT)
+        process.communicate()
+        assert process.returncode in (STOPPED, DONE)
+    require_same_results(whole, finish(folder))
+
+
+def test_a_population_that_dies_out_ends_well(tmp_path):
+    write_scene(tmp_path, changed(CELLS, growth={"death_rate": 20.0}))
+    result = run(tmp_path)
+    assert result.returncode == DONE and "all cells have died" in result.stderr
+    assert json.loads((tmp_path / "run" / "run.json").read_text())["exit_reason"] == "extinct"
+    assert sum(column(tmp_path / "run" / "lineage.csv", "birth")) == 0
+    again = run(tmp_path)
+    assert again.returncode == DONE and "all cells have died" in again.stderr

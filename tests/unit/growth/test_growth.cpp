@@ -1,0 +1,195 @@
+// Growth, division and death of rods that meet nobody, one function at a time.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "jostle/error/input_error.hpp"
+#include "jostle/growth/growth.hpp"
+#include "jostle/parallel/parallel_for.hpp"
+
+using namespace jostle;
+
+namespace {
+
+const Box box{{20, 20, 20}, {true, true, true}};
+
+/// The paper's cells: born with 2.5, dividing at 6.
+GrowthLaw law() {
+    GrowthLaw law;
+    law.rate = 1.0;
+    law.division_length = 6.0;
+    law.division_every = 1;
+    return law;
+}
+
+Rods cells(std::size_t count, double length = 2.5) {
+    Rods rods;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double angle = 0.7 * static_cast<double>(i);
+        rods.push_back(i, {19.5, 0.3, 1.0 + static_cast<double>(i % 18)}, {std::cos(angle), std::sin(angle), 0.0},
+                       length, 1.0);
+    }
+    return rods;
+}
+
+Vec3 unwrapped(const Rods& rods, std::size_t i) {
+    return rods.centre[i] + box.displacement(rods.image[i]);
+}
+
+}  // namespace
+
+//        mother    (=======================)      length L between the centres of the caps
+//     daughters    (=========)(============)      (L - D)/2 each, caps touching
+TEST_CASE("two daughters touch, and reach as far as their mother; her volume falls by pi D^3/12") {
+    const Growth growth(law(), 1, 4);
+    Rods rods = cells(3, 6.25);
+    growth.found(rods);
+    const Rods before = rods;
+    const auto events = growth.divide(rods, box, 7, 0.1);
+    REQUIRE(events.size() == 3);
+    REQUIRE(rods.size() == 6);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t front = 3 + i;
+        const Vec3 axis = before.axis[i], apart = unwrapped(rods, front) - unwrapped(rods, i);
+        const double length = rods.length[i];
+        CHECK(length == 0.5 * (6.25 - 1.0));
+        CHECK(rods.length[front] == length);
+        CHECK(norm(apart - (length + 1.0) * axis) < 1e-12);  // ends of the segments are D apart: touching
+        const double reach =
+            norm(unwrapped(rods, front) + 0.5 * length * axis - (unwrapped(before, i) + 0.5 * before.length[i] * axis));
+        CHECK(reach < 1e-12);
+        const double lost =
+            rod_volume(6.25, 1.0) - rod_volume(rods.length[i], 1.0) - rod_volume(rods.length[front], 1.0);
+        CHECK(lost == doctest::Approx(std::numbers::pi / 12.0));
+        CHECK(rods.id[i] == i);
+        CHECK(rods.id[front] == (i | 1U << 4));
+        CHECK(events[i].id == rods.id[front]);
+        CHECK(events[i].mother == i);
+        CHECK(rods.cycle[front].birth_step == 7);
+        for (const std::size_t row : {i, front})
+            for (int k = 0; k < 3; ++k) CHECK((rods.centre[row][k] >= 0.0 && rods.centre[row][k] < 20.0));
+    }
+}
+
+TEST_CASE("ids are never used twice, in ten generations of five founders") {
+    const Growth growth(law(), 1, 3);
+    Rods rods = cells(5, 6.0);
+    growth.found(rods);
+    std::set<std::uint64_t> seen(rods.id.begin(), rods.id.end());
+    for (std::uint64_t generation = 1; generation <= 10; ++generation) {
+        for (const LineageEvent& event : growth.divide(rods, box, generation, 0.1)) {
+            CHECK(seen.insert(event.id).second);
+            CHECK(seen.contains(event.mother));
+        }
+        REQUIRE(rods.size() == 5U << generation);
+        std::fill(rods.length.begin(), rods.length.end(), 6.0);  // all are due again
+    }
+    CHECK(std::set<std::uint64_t>(rods.id.begin(), rods.id.end()) == seen);
+}
+
+TEST_CASE("a line that ids cannot follow is refused, and so is an id that is too large") {
+    const Growth growth(law(), 1, 31);
+    Rods rods = cells(1, 6.0);
+    growth.found(rods);
+    rods.cycle[0].divisions = 22;
+    CHECK_THROWS_AS(growth.divide(rods, box, 1, 0.1), InputError);
+    rods.id[0] = std::uint64_t{1} << 31;
+    CHECK_THROWS_AS(growth.found(rods), InputError);
+}
+
+TEST_CASE("direction of the daughter in front") {
+    GrowthLaw turned = law();
+    turned.daughters = DaughterDirection::opposite;
+    Rods rods = cells(1, 6.0);
+    const Growth growth(turned, 1, 0);
+    growth.found(rods);
+    growth.divide(rods, box, 1, 0.1);
+    CHECK(norm(rods.axis[0] + rods.axis[1]) == 0.0);
+}
+
+TEST_CASE("compression slows growth, tension does not hasten it") {
+    GrowthLaw stalled = law();
+    stalled.stall_force = 4.0;
+    const Growth growth(stalled, 1, 2);
+    Rods rods = cells(3);
+    growth.found(rods);
+    const std::vector<std::uint32_t> rows = {0, 1};
+    // Forces F inward on both ends: the sum of arm F is -F L along the axis.
+    const std::vector<ContactForce> forces = {{{}, -1.0 * 2.5 * rods.axis[0]}, {{}, 9.0 * 2.5 * rods.axis[1]}};
+    growth.lengthen(rods, rows, forces, 0.1);
+    CHECK(rods.length[0] == doctest::Approx(2.5 + 0.1 * 0.75));
+    CHECK(rods.length[1] == doctest::Approx(2.6));
+    CHECK(rods.length[2] == doctest::Approx(2.6));
+    const std::vector<ContactForce> strong = {{{}, -5.0 * rods.length[0] * rods.axis[0]}, {{}, {}}};
+    const double before = rods.length[0];
+    growth.lengthen(rods, rows, strong, 0.1);
+    CHECK(rods.length[0] == before);
+}
+
+// Length at birth l, at division d, after many generations of one line with noise delta in what is measured:
+// sizer: var d = (delta L_d)^2; adder: l' = (l + added (1 + delta xi) - D)/2, so var l = (delta added)^2/3, mean
+// (L_d - D)/2; a timer's lengths have the same law as an adder's at one rate.
+TEST_CASE("sizer, adder and timer keep the mean length; the adder's noise is (delta added)^2/3") {
+    constexpr double delta = 0.1, dt = 0.01;
+    constexpr int lines = 4000;
+    for (const DivisionRule rule : {DivisionRule::sizer, DivisionRule::adder, DivisionRule::timer}) {
+        GrowthLaw noisy = law();
+        noisy.division = rule;
+        noisy.division_deviation = delta;
+        const Growth growth(noisy, 3, 12);
+        Rods rods = cells(lines);
+        growth.found(rods);
+        std::uint64_t step = 0;
+        for (int generation = 0; generation < 6; ++generation) {
+            // Every cell is taken to its own division, one after the other in time.
+            for (std::size_t i = 0; i < rods.size(); ++i) {
+                CellCycle& cycle = rods.cycle[i];
+                if (rule == DivisionRule::timer)
+                    rods.length[i] += cycle.division_at * cycle.growth_rate;
+                else
+                    rods.length[i] = cycle.division_at;
+                if (rule == DivisionRule::timer) cycle.division_at = 0.0;
+            }
+            growth.divide(rods, box, ++step, dt);
+            Rods kept = rods;  // one daughter of each
+            for (auto* values : {&kept.length, &kept.diameter}) values->resize(lines);
+            kept.centre.resize(lines);
+            kept.axis.resize(lines);
+            kept.id.resize(lines);
+            kept.image.resize(lines);
+            kept.cycle.resize(lines);
+            rods = kept;
+        }
+        double mean = 0.0, variance = 0.0;
+        for (const double length : rods.length) mean += length / lines;
+        for (const double length : rods.length) variance += (length - mean) * (length - mean) / (lines - 1);
+        const double measured = rule == DivisionRule::sizer ? 6.0 : 3.5;
+        const double expected = std::pow(0.5 * delta * measured, 2) * (rule == DivisionRule::sizer ? 1.0 : 4.0 / 3.0);
+        // Four standard errors of mean and variance of 4000 normal numbers: false alarm 4e-4 in all.
+        CHECK(std::fabs(mean - 2.5) < 4.0 * std::sqrt(expected / lines));
+        CHECK(std::fabs(variance / expected - 1.0) < 4.0 * std::sqrt(2.0 / lines));
+    }
+}
+
+TEST_CASE("cells die at their rate; the others stay in order") {
+    GrowthLaw mortal = law();
+    mortal.death_rate = 0.5;
+    mortal.division_every = 10;
+    const Growth growth(mortal, 5, 14);
+    Rods rods = cells(10000);
+    growth.found(rods);
+    const auto events = growth.divide(rods, box, 10, 0.02);
+    // Of 10000, with probability p = 1 - exp(-0.5 * 10 * 0.02) each: four standard deviations, false alarm 6e-5.
+    const double p = -std::expm1(-0.1), expected = 10000 * p;
+    CHECK(std::fabs(static_cast<double>(events.size()) - expected) < 4.0 * std::sqrt(expected * (1.0 - p)));
+    CHECK(rods.size() + events.size() == 10000);
+    CHECK(std::is_sorted(rods.id.begin(), rods.id.end()));
+    for (const LineageEvent& event : events) {
+        CHECK(event.kind == LineageEvent::Kind::death);
+        CHECK(!std::binary_search(rods.id.begin(), rods.id.end(), event.id));
+    }
+}

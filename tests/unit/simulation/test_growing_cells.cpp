@@ -1,0 +1,147 @@
+// Cells that grow, divide and push each other, step by step.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "jostle/error/input_error.hpp"
+#include "jostle/parallel/parallel_for.hpp"
+#include "jostle/simulation/assemble.hpp"
+#include "jostle/simulation/largest_overlap.hpp"
+#include "jostle/simulation/start.hpp"
+#include "jostle/simulation/validate_scene.hpp"
+
+using namespace jostle;
+
+namespace {
+
+const Box open_space{{1000, 1000, 1000}, {false, false, false}};
+
+/// The paper's cells in units of their diameter, without noise.
+Scene still_cells() {
+    Scene scene;
+    scene.rods.count = 1;
+    scene.rods.length = 2.5;
+    scene.motion.brownian = false;
+    scene.fluid.kT = 0.0;
+    scene.time.step = 0.01;
+    scene.growth.rate = 1.0;
+    scene.growth.division_length = 6.0;
+    scene.growth.division_every = 1;
+    return scene;
+}
+
+Rods one_cell() {
+    Rods rods;
+    rods.push_back(0, {500, 500, 500}, {1, 0, 0}, 2.5, 1.0);
+    return rods;
+}
+
+}  // namespace
+
+TEST_CASE("an isolated cell doubles on schedule, and its line of daughters spreads without an overlap") {
+    Simulation simulation = assemble(still_cells(), open_space, one_cell(), {});
+    for (int generation = 1; generation <= 4; ++generation) {
+        for (int step = 0; step < 350; ++step) {
+            CHECK(simulation.rods().size() == 1U << (generation - 1));
+            const StepReport report = simulation.step();
+            REQUIRE(report.status == LcpStatus::converged);
+            CHECK(report.rods == 1U << (generation - 1));
+            CHECK(report.max_overlap < 0.01 + 1e-4);  // two cells lengthen by rate dt/2 each between two steps
+        }
+        CHECK(simulation.rods().size() == 1U << generation);
+        CHECK(simulation.lineage().size() == 1U << (generation - 1));
+    }
+    for (const double length : simulation.rods().length) CHECK(length == doctest::Approx(2.5));
+    // On the axis all forces are along the line: nothing turns or leaves it, and the middle stays where it was.
+    double middle = 0.0;
+    for (const Vec3& centre : simulation.rods().centre) {
+        CHECK(std::fabs(centre.y - 500.0) < 1e-9);
+        middle += centre.x / 16.0;
+    }
+    CHECK(middle == doctest::Approx(500.0).epsilon(1e-6));
+}
+
+TEST_CASE("a dense colony from one cell: no collision is missed, and the same bits for any number of threads") {
+    Scene scene = still_cells();
+    scene.motion.brownian = true;
+    scene.fluid.kT = 0.01;
+    scene.growth.rate_deviation = 0.1;
+    scene.growth.division_deviation = 0.1;
+    scene.growth.division_every = 7;
+    std::vector<Rods> ends;
+    for (const int threads : {1, 3}) {
+        parallel::set_thread_count(threads);
+        Simulation simulation = assemble(scene, open_space, one_cell(), {});
+        double largest = 0.0;
+        while (simulation.rods().size() < 300) {
+            const StepReport report = simulation.step();
+            REQUIRE(report.status == LcpStatus::converged);
+            largest = std::max(largest, report.max_overlap);
+        }
+        // Growth of two cells in a step, and what compliance and large pushes leave: far below what a missed pair
+        // would.
+        CHECK(largest < 0.1);
+        CHECK(largest_overlap(simulation.rods(), open_space) < 0.1);
+        ends.push_back(simulation.rods());
+    }
+    REQUIRE(ends[0].size() == ends[1].size());
+    for (std::size_t i = 0; i < ends[0].size(); ++i) {
+        CHECK(ends[0].id[i] == ends[1].id[i]);
+        CHECK(ends[0].centre[i] == ends[1].centre[i]);
+        CHECK(ends[0].length[i] == ends[1].length[i]);
+    }
+}
+
+TEST_CASE("a run taken up from its state between two divisions goes on bit for bit") {
+    Scene scene = still_cells();
+    scene.motion.brownian = true;
+    scene.fluid.kT = 0.01;
+    scene.growth.rate_deviation = 0.1;
+    scene.growth.death_rate = 0.01;
+    Simulation whole = assemble(scene, open_space, one_cell(), {});
+    for (int step = 0; step < 1111; ++step) whole.step();
+    Simulation again = assemble(scene, open_space, whole.rods(), whole.clock());
+    for (int step = 0; step < 400; ++step) {
+        whole.step();
+        again.step();
+    }
+    CHECK(whole.rods().size() > 4);
+    CHECK(whole.rods().id == again.rods().id);
+    CHECK(whole.rods().length == again.rods().length);
+    for (std::size_t i = 0; i < whole.rods().size(); ++i) CHECK(whole.rods().centre[i] == again.rods().centre[i]);
+}
+
+TEST_CASE("growth that cannot be is refused with the numbers") {
+    Scene scene = still_cells();
+    scene.box.edges = Vec3{100, 100, 100};
+    scene.time.production = 1.0;
+    CHECK_NOTHROW(validate(scene));
+    const auto message = [](const Scene& bad) -> std::string {
+        try {
+            validate(bad);
+            assemble(bad, open_space, one_cell(), {});
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    Scene bad = scene;
+    bad.growth.division_length = 1.0;
+    CHECK(message(bad).find("two daughters need") != std::string::npos);
+    bad.growth.division_length = 2.5;
+    CHECK(message(bad).find("rods.length = 2.5") != std::string::npos);
+    bad = scene;
+    bad.growth.rate = -1.0;
+    CHECK(message(bad).find("is negative") != std::string::npos);
+    bad.growth.rate = 20.0;
+    CHECK(message(bad).find("lengthens cells by 0.2 in a step") != std::string::npos);
+    bad = scene;
+    bad.growth.death_rate = -0.1;
+    CHECK(message(bad).find("growth.death_rate") != std::string::npos);
+    bad = scene;
+    bad.mobility.model = MobilityModel::slender_body;
+    bad.growth.division_length = 2.6;
+    CHECK(message(bad).find("daughters of L/D = 0.8") != std::string::npos);
+}
