@@ -4,7 +4,7 @@ import itertools
 
 import numpy
 
-from runs import RunFailed
+from clusters import trajectory
 
 SPACING = (0.8, 1.5)  # of layers, in rod lengths L + D
 SLOPE = 0.9  # cosine between their normal and the director, at least
@@ -13,12 +13,7 @@ SLOPE = 0.9  # cosine between their normal and the director, at least
 def layer_order(run, director):
     """(order, spacing): the largest mean |sum exp(i q.r)|/N over the frames of production, of all q that fit the periodic
     box and could be layers; about 1/sqrt(N) without layers, 1 for perfect ones."""
-    try:
-        import h5py  # here: what needs no trajectory runs without it
-    except ImportError:
-        raise RunFailed("this study reads trajectories: apt-get install python3-h5py") from None
-
-    with h5py.File(run.folder / "trajectory.h5") as file:
+    with trajectory(run) as file:
         rods = file["particles/rods"]
         edges = numpy.diag(rods["box/edges"][...]) if rods["box/edges"].ndim == 2 else rods["box/edges"][...]
         positions = rods["position/value"][rods["position/step"][...] > run.equilibration]
