@@ -15,7 +15,6 @@ struct Crowd {
     jostle::StartKind start = jostle::StartKind::random;
     double self_propulsion = 0.0;  ///< U_0 D/(kT mobility along the axis): a Peclet number; 0 for passive bodies
     int settling_steps = 1000;
-    bool crammed = false;  ///< no room for the time-step correction, which makes bodies thicker: without it
 };
 
 inline constexpr std::uint64_t settled_count = 2000;  ///< bodies that are brought to rest; larger crowds are copies

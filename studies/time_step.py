@@ -31,9 +31,15 @@ def runs(quick):
                        "contact": {"brownian_correction": scheme == "corrected", "overlap_limit": 0.9},
                        "time": {"rms_step": rms},
                        "solver": {"tolerance": 1e-4}},
-                equilibration=production // 10 + int(1000 * (0.03 / rms)**1.5),
+                equilibration=equilibration(beta, rms, production),
                 production=int(share[scheme] * production))
             for beta, phi in states for scheme in SCHEMES for rms, production in steps.items()]
+
+
+def equilibration(beta, rms, production):
+    """Steps until a random start is forgotten; rods take the time in which they turn, 35 mu D3/kT at this length."""
+    steps = production // 10 + int(1000 * (0.03 / rms)**1.5)
+    return max(steps, math.ceil(35.0 / (12.8 * rms**2))) if beta > 0 and rms < 0.02 else steps
 
 
 class Series:
