@@ -7,6 +7,7 @@ import shutil
 import report
 import runs
 
+LARGEST_FILE = 2_000_000  # bytes
 FOLDER = pathlib.Path(__file__).resolve().parent.parent / "docs" / "validation"
 
 HEAD = """# Validation
@@ -33,7 +34,9 @@ def write(results, names):
         folder = results / verdict["study"]
         for picture in verdict["figures"]:
             for ending in (".png", ".svg"):
-                shutil.copy(folder / (picture["file"] + ending), FOLDER)
+                file = folder / (picture["file"] + ending)
+                if file.stat().st_size < LARGEST_FILE:  # pictures of thousands of cells are no vector graphics
+                    shutil.copy(file, FOLDER)
         shutil.copy(folder / (verdict["study"] + ".csv"), FOLDER)
     text = "\n".join([HEAD, overview(verdicts), *(section(verdict) for verdict in verdicts)])
     (FOLDER / "README.md").write_text(text, encoding="utf-8")
