@@ -71,6 +71,13 @@ def virial(beta, phi):
     return None
 
 
+def virial_ratios(beta):
+    """(B3/B2^2, B4/B2^3) of isotropic spherocylinders; KeyError without a row."""
+    rows = {float(row["L_over_D"]): row for row in runs.read_csv(FOLDER / "virial.csv")}
+    row = rows[float(beta)]
+    return float(row["B3_over_B2sq"]), float(row["B4_over_B2cu"])
+
+
 def carnahan_starling(phi):
     return (1 + phi + phi**2 - phi**3) / (1 - phi)**3
 
