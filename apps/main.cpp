@@ -2,6 +2,7 @@
 
 #include "check_command.hpp"
 #include "exit_code.hpp"
+#include "presentation_command.hpp"
 #include "run_command.hpp"
 #include "verify_command.hpp"
 #include "version.hpp"
@@ -66,6 +67,18 @@ int main(int argc, char** argv) {
     CLI::App* verify = app.add_subcommand("verify", "Check the files of a run for damage");
     verify->add_option("folder", folder, "folder of a run")->required();
 
+    std::string format, out;
+    CLI::App* exporter = app.add_subcommand("export", "Write the rods of a run for OVITO, ParaView and others");
+    exporter->add_option("folder", folder, "folder of a run")->required();
+    exporter->add_option("--to", format, "gsd (OVITO, freud), vtk (ParaView) or xyz (OVITO, ASE)")->required();
+    exporter->add_option("--out", out, "file or, for vtk, folder; default: in the folder of the run");
+
+    std::string width = "1600";
+    CLI::App* report = app.add_subcommand("report", "Make a page that shows a run: plots, averages, view of the rods");
+    report->add_option("folder", folder, "folder of a run")->required();
+    report->add_option("--out", out, "folder for the page and its pictures; default: report in the folder of the run");
+    report->add_option("--width", width, "width of the view of the rods, in pixels")->capture_default_str();
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -75,6 +88,8 @@ int main(int argc, char** argv) {
     return exit_status([&]() {
         if (run->parsed()) return run_command(options);
         if (check->parsed()) return check_command(scene);
-        return verify_command(folder);
+        if (verify->parsed()) return verify_command(folder);
+        if (exporter->parsed()) return presentation_command("export", {"--to=" + format, "--out=" + out, "--", folder});
+        return presentation_command("report", {"--width=" + width, "--out=" + out, "--", folder});
     });
 }

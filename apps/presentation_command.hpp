@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "exit_code.hpp"
+
+/// `jostle export` and `jostle report`: hands over to the Python program presentation/PROGRAM.py, whose exit status is
+/// that of the command.
+///
+/// Does not return when the program starts. Errors: InputError if Python or the program is not there.
+ExitCode presentation_command(const std::string& program, const std::vector<std::string>& arguments);

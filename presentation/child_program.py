@@ -1,0 +1,30 @@
+"""Running another program that ends when this one is told to end."""
+
+import signal
+import subprocess
+
+
+def run(words, folder):
+    """Runs a program in the folder to its end. Result: its status, and what it said on standard error."""
+    stopped = []
+    with_signals = {number: signal.signal(number, lambda *_: stopped.append(True))
+                    for number in (signal.SIGINT, signal.SIGTERM)}
+    process = None
+    try:
+        # A signal while the program starts must wait until there is something to end.
+        process = subprocess.Popen(words, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        _restore(with_signals)
+        if stopped:
+            raise KeyboardInterrupt
+        _, errors = process.communicate()
+        return process.returncode, errors
+    finally:
+        if process:
+            process.kill()  # does nothing to one that has ended
+            process.wait()
+        _restore(with_signals)
+
+
+def _restore(with_signals):
+    for number, action in with_signals.items():
+        signal.signal(number, action)

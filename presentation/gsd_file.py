@@ -1,0 +1,103 @@
+"""GSD, schema hoomd 1.4: OVITO draws the rods as spherocylinders, freud reads them.
+
+A shape belongs to a type there, so rods of one length and diameter are a type. Where a run has more than 64 kinds,
+lengths are drawn in classes of equal width, and the exact ones stand in log/particles/length.
+"""
+
+import gsd.fl
+import gsd.hoomd
+import numpy as np
+
+from quaternion import turning_z_to
+
+APPLICATION = "jostle export"
+MOST_TYPES = 64
+MOST_DIAMETERS = 8  # where there are too many kinds of rods; leaves 8 classes of length
+
+
+def is_ours(path):
+    try:
+        with gsd.fl.open(name=str(path), mode="rb") as file:
+            return file.application == APPLICATION
+    except (OSError, RuntimeError):
+        return False
+
+
+def write(path, trajectory):
+    """Writes every frame; float32, to look at and to analyse, never to go on from."""
+    kinds = Kinds(trajectory)
+    with gsd.fl.open(name=str(path), mode="wb", application=APPLICATION, schema="hoomd", schema_version=[1, 4]) as file:
+        frames = gsd.hoomd.HOOMDTrajectory(file)
+        for frame in trajectory:
+            frames.append(snapshot(frame, kinds))
+
+
+def snapshot(frame, kinds):
+    made = gsd.hoomd.Snapshot()
+    made.configuration.step = frame.step
+    made.configuration.box = [*frame.edges, 0, 0, 0]
+    rods = made.particles
+    rods.N = len(frame)
+    rods.types, rods.type_shapes = kinds.names, kinds.shapes
+    rods.typeid = kinds.of(frame.length, frame.diameter)
+    rods.position, rods.image = centred(frame)
+    rods.orientation = turning_z_to(frame.axis)
+    made.log["time"] = np.array([frame.time])
+    made.log["particles/length"] = frame.length.astype(np.float32)
+    made.log["particles/id"] = frame.id
+    return made
+
+
+def centred(frame):
+    """Positions in a box around the origin, in [-edge/2, edge/2) where it is periodic, and images."""
+    half = (0.5 * frame.edges).astype(np.float32)
+    position = (frame.centre - 0.5 * frame.edges).astype(np.float32)
+    image = frame.image.copy()
+    beyond = (position >= half) & frame.periodic  # by rounding to float32
+    image[beyond] += 1
+    return np.where(beyond, -half, position), image
+
+
+def shape_of(length, diameter):
+    if length == 0.0:
+        return {"type": "Sphere", "diameter": diameter}
+    return {"type": "ConvexPolyhedron", "rounding_radius": 0.5 * diameter,
+            "vertices": [[0.0, 0.0, -0.5 * length], [0.0, 0.0, 0.5 * length]]}
+
+
+class Kinds:
+    """The types of all frames of a trajectory: classes of length times classes of diameter."""
+
+    def __init__(self, trajectory):
+        lengths = diameters = np.empty(0)
+        for frame in trajectory:
+            lengths, diameters = _joined(lengths, frame.length), _joined(diameters, frame.diameter)
+        if len(lengths) * len(diameters) > MOST_TYPES:
+            diameters = _classes(diameters, MOST_DIAMETERS)
+            lengths = _classes(lengths, MOST_TYPES // len(diameters))
+        self.lengths, self.diameters = lengths, diameters
+        kinds = [(float(length), float(diameter)) for length in lengths for diameter in diameters]
+        self.names = [f"rod {length:.4g} x {diameter:.4g}" for length, diameter in kinds]
+        self.shapes = [shape_of(length, diameter) for length, diameter in kinds]
+
+    def of(self, length, diameter):
+        found = _nearest(self.lengths, length) * len(self.diameters) + _nearest(self.diameters, diameter)
+        return found.astype(np.uint32)
+
+
+def _joined(known, values):
+    """The different values, ascending; of more than can be types, some, with the outermost among them."""
+    found = np.union1d(known, values)
+    return found if len(found) <= MOST_TYPES else np.append(found[:MOST_TYPES], found[-1])
+
+
+def _classes(values, most):
+    """The middles of `most` classes of equal width, or the values themselves if there are no more."""
+    if len(values) <= most:
+        return values
+    edges = np.linspace(values[0], values[-1], most + 1)
+    return 0.5 * (edges[1:] + edges[:-1])
+
+
+def _nearest(classes, values):
+    return np.searchsorted(0.5 * (classes[1:] + classes[:-1]), values)

@@ -1,0 +1,115 @@
+"""The rods of a frame as a scene for POV-Ray: true spherocylinders, light, box and camera."""
+
+import numpy as np
+
+ASPECTS = (4.0 / 3.0, 3.2)        # width over height of the picture, narrowest and widest
+FIELD_OF_VIEW = np.radians(24.0)  # small: rods far away look as long as those near by
+HEAD = (0.84, 0.37, 0.0)          # vermillion: told from viridis by everybody
+EDGE = (0.35, 0.35, 0.35)
+
+SETTINGS = """\
+// Rods as spherocylinders. Draw again at any size: povray view.pov +W3200 +H{tall} +A0.1
+#version 3.7;
+global_settings {{ assumed_gamma 1.0 max_trace_level 3 }}
+background {{ rgb 1.0 }}
+#declare Matte = finish {{ ambient 0.2 diffuse 0.8 specular 0.2 roughness 0.03 }}
+#macro Rod(Tail, Head, R, Colour)
+  union {{
+    cylinder {{ Tail, Head, R }} sphere {{ Tail, R }} sphere {{ Head, R }}
+    pigment {{ color srgb Colour }} finish {{ Matte }}
+  }}
+#end
+#macro Ball(Centre, R, Colour) sphere {{ Centre, R pigment {{ color srgb Colour }} finish {{ Matte }} }} #end
+#macro Edge(A, B, R, Colour)
+  cylinder {{ A, B, R pigment {{ color srgb Colour }} finish {{ ambient 0.6 diffuse 0.3 }} no_shadow }}
+#end
+"""
+
+
+def scene(frame, camera, colours, heads):
+    """The text of the scene. colours: (N, 3), sRGB in 0..1; heads: whether the end that swims ahead is marked."""
+    parts = [SETTINGS.format(tall=round(3200 / camera.aspect)), camera.text(), lights(frame, camera), box_edges(frame)]
+    for ends, diameter, colour in zip(frame.ends(), frame.diameter, colours):
+        parts.append(rod(ends, 0.5 * diameter, colour))
+    if heads:
+        parts += [head(*of_rod) for of_rod in zip(frame.ends()[:, 1], frame.axis, frame.length, 0.5 * frame.diameter)]
+    return "".join(parts)
+
+
+def rod(ends, radius, colour):
+    tail, front = ends
+    if np.array_equal(tail, front):
+        return f"Ball({vector(tail)}, {radius:.6g}, {vector(colour)})\n"
+    return f"Rod({vector(tail)}, {vector(front)}, {radius:.6g}, {vector(colour)})\n"
+
+
+def head(end, axis, length, radius):
+    """A cap over the front: of a rod all of its cap, of a sphere a smaller one."""
+    forward = 0.0 if length > 0.0 else 0.3 * radius
+    return f"Ball({vector(end + forward * axis)}, {(1.03 * radius - forward):.6g}, {vector(HEAD)})\n"
+
+
+def lights(frame, camera):
+    """A large lamp up and left behind the viewer, with soft shadows, and a weak one that lightens them."""
+    size = camera.distance
+    lamp = camera.location + size * (0.7 * camera.up - 0.6 * camera.right)
+    side, other = 0.25 * size * camera.right, 0.25 * size * camera.up
+    return (f"light_source {{ {vector(lamp)} rgb 1.0 area_light {vector(side)}, {vector(other)}, 4, 4 adaptive 0 }}\n"
+            f"light_source {{ {vector(camera.location + size * camera.right)} rgb 0.4 shadowless }}\n")
+
+
+def box_edges(frame):
+    corners = [np.array(corner) * frame.edges for corner in np.ndindex(2, 2, 2)]
+    thickness = 0.0018 * np.linalg.norm(frame.edges)
+    text = ""
+    for a, first in enumerate(corners):
+        for second in corners[a + 1:]:
+            if np.count_nonzero(first != second) == 1:
+                text += f"Edge({vector(first)}, {vector(second)}, {thickness:.6g}, {vector(EDGE)})\n"
+    return text
+
+
+class Camera:
+    """Looks from above along the shortest edge's side onto the whole box: the longest edge lies across the picture."""
+
+    def __init__(self, frame):
+        shortest, middle, longest = np.argsort(frame.edges, kind="stable")[[0, 1, 2]]
+        if frame.edges[longest] < 1.01 * frame.edges[shortest]:
+            longest, middle, shortest = 0, 1, 2  # a cube stands with z up
+        across, away, up = np.eye(3)[[longest, middle, shortest]]
+        if np.dot(np.cross(across, away), up) < 0.0:
+            away = -away  # a right-handed set: the picture is no mirror image
+        towards = _unit(0.42 * across - 1.0 * away + 0.42 * up)  # from the box to the viewer
+        self.direction = -towards
+        self.right = _unit(np.cross(self.direction, up))
+        self.up = np.cross(self.right, self.direction)
+        self._fit(frame)
+
+    def _fit(self, frame):
+        """As near as shows everything, in a picture as wide as suits the box."""
+        corners = np.array(list(np.ndindex(2, 2, 2))) * frame.edges
+        middle = 0.5 * frame.edges
+        reach = 0.5 * frame.diameter.max(initial=0.0)
+        points = np.concatenate((corners, frame.ends().reshape(-1, 3))) - middle
+        half_width = np.tan(0.5 * FIELD_OF_VIEW)
+        x, y, depth = points @ self.right, points @ self.up, points @ self.direction
+        # Shifted so that what is seen is in the middle, then far enough for either side.
+        shift = [0.5 * (values.min() + values.max()) for values in (x, y)]
+        x, y = x - shift[0], y - shift[1]
+        self.aspect = float(np.clip((np.abs(x).max() + reach) / (np.abs(y).max() + reach), *ASPECTS))
+        needed = np.maximum((np.abs(x) + reach) / half_width, (np.abs(y) + reach) / (half_width / self.aspect)) - depth
+        self.distance = 1.03 * needed.max()
+        self.location = middle + shift[0] * self.right + shift[1] * self.up - self.distance * self.direction
+
+    def text(self):
+        width = 2.0 * np.tan(0.5 * FIELD_OF_VIEW)
+        return (f"camera {{ perspective location {vector(self.location)} direction {vector(self.direction)} "
+                f"right {vector(width * self.right)} up {vector(width / self.aspect * self.up)} }}\n")
+
+
+def vector(values):
+    return "<" + ",".join(f"{value:.6g}" for value in values) + ">"
+
+
+def _unit(values):
+    return values / np.linalg.norm(values)

@@ -1,0 +1,91 @@
+"""The rods of a trajectory.h5, frame by frame."""
+
+from dataclasses import dataclass
+
+import h5py
+import numpy as np
+
+from refusal import Refusal
+
+NO_ROD = -1  # id in rows that no rod fills, where the number of rods changes
+
+
+@dataclass
+class Frame:
+    """Rods in the order of their ids; lengths in the units of the run."""
+    step: int
+    time: float
+    edges: np.ndarray     # (3) of the box, whose lowest corner is the origin
+    periodic: np.ndarray  # (3) bool
+    id: np.ndarray        # (N)
+    centre: np.ndarray    # (N, 3)
+    image: np.ndarray     # (N, 3) box edges crossed
+    axis: np.ndarray      # (N, 3) unit vector
+    length: np.ndarray    # (N) without the caps
+    diameter: np.ndarray  # (N)
+
+    def __len__(self):
+        return len(self.id)
+
+    def ends(self):
+        """Centres of the two caps, (N, 2, 3): tail and head."""
+        half = 0.5 * self.length[:, None] * self.axis
+        return np.stack((self.centre - half, self.centre + half), axis=1)
+
+
+class Trajectory:
+    """A file that is open for reading; iteration gives its frames."""
+
+    def __init__(self, folder):
+        self.path = folder / "trajectory.h5"
+        if not self.path.exists():
+            raise _no_trajectory(folder)
+        self._rods = self._read(lambda: h5py.File(self.path, "r")["particles/rods"])
+        self.steps = self._read(lambda: self._rods["position/step"][()])
+        self.times = self._read(lambda: self._rods["position/time"][()])
+        if len(self.steps) == 0:
+            raise Refusal(self.path, "it has no frame")
+
+    def __len__(self):
+        return len(self.steps)
+
+    def __iter__(self):
+        return (self.frame(k) for k in range(len(self)))
+
+    def frame(self, k):
+        return self._read(lambda: self._frame(k))
+
+    def _frame(self, k):
+        rods = self._rods
+        ids = rods["id/value"][k].astype(np.int64)  # -1 as an unsigned number becomes -1 too
+        there = np.flatnonzero(ids != NO_ROD)
+        rows = there[np.argsort(ids[there], kind="stable")]
+        edges = rods["box/edges"]
+        edges = edges["value"][k] if isinstance(edges, h5py.Group) else edges[()]
+        boundary = [word.decode() if isinstance(word, bytes) else word for word in rods["box"].attrs["boundary"]]
+
+        def column(name, kind):
+            return rods[f"{name}/value"][k][rows].astype(kind)
+
+        axis = column("orientation", float)
+        axis /= np.linalg.norm(axis, axis=1, keepdims=True)
+        return Frame(step=int(self.steps[k]), time=float(self.times[k]), edges=np.asarray(edges, float),
+                     periodic=np.array([word == "periodic" for word in boundary]), id=ids[rows],
+                     centre=column("position", float), image=column("image", np.int32), axis=axis,
+                     length=column("length", float), diameter=column("diameter", float))
+
+    def _read(self, action):
+        try:
+            return action()
+        except (OSError, KeyError, ValueError, RuntimeError) as error:
+            problem = " ".join(str(error).split())
+            raise Refusal(self.path, f"cannot be read: {problem}", "`jostle verify` tells what is damaged") from None
+
+
+def _no_trajectory(folder):
+    path = folder / "trajectory.h5"
+    if (folder / "trajectory.journal").exists():
+        return Refusal(path, "there is none yet: it is made when the run stops",
+                       "Stop the run with Ctrl-C, or let it end")
+    return Refusal(path, "the run kept no trajectory",
+                   "Set output.trajectory_every in the scene, and run it into a new folder")

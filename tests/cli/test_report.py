@@ -1,0 +1,214 @@
+"""`jostle report`: one page with plots, averages and a view of the rods; what is missing is said, not an error."""
+
+import html
+import json
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import trajectory_by_hand
+from jostle_command import (DISK, DONE, ENVIRONMENT, JOSTLE, RODS, SPHERES, STOPPED, changed, command, finish, kill,
+                            require_one_line, rows_of, snapshot, start, wait_until, with_steps, write_scene)
+from test_full_disk import file_size_limit
+
+PRESENTATION = Path(__file__).resolve().parents[2] / "presentation"
+sys.path.insert(0, str(PRESENTATION))
+
+import povray_scene  # noqa: E402  (the path comes first)
+from trajectory import Trajectory  # noqa: E402
+
+PLOTS = {"Z.png", "nematic_order.png", "max_overlap.png", "iterations.png", "N.png", "phi.png"}
+SMALL = ("--width", "120")
+
+
+def report(folder, *options, path=None):
+    """The page, and what was said on standard error; path: where programs are looked for."""
+    environment = {**ENVIRONMENT, "PATH": path} if path else ENVIRONMENT
+    result = subprocess.run([shutil.which(JOSTLE), "report", "run", *(options or SMALL)], cwd=folder, env=environment,
+                            capture_output=True, text=True, check=False, timeout=120)
+    assert result.returncode == DONE, result.stderr
+    assert result.stdout.endswith("report.html\n")
+    assert not list((folder / "run").glob(".*"))
+    return (folder / result.stdout.strip()).read_text(), result.stderr
+
+
+def size_of(png):
+    content = png.read_bytes()
+    assert content[:8] == b"\x89PNG\r\n\x1a\n"
+    return struct.unpack(">II", content[16:24])
+
+
+def require_self_contained(page):
+    assert re.findall(r'(?:src|href)="(?!data:)', page) == [] and "<script" not in page
+    assert page.startswith("<!DOCTYPE html>") and page.endswith("</html>\n")
+
+
+def numbers_after(page, words):
+    """The cells of the row that begins with the words."""
+    row = re.search(rf"<tr><td[^>]*>{re.escape(words)}</td>(.*)</tr>", page)[1]
+    return re.findall(r"<td[^>]*>(.*?)</td>", row)
+
+
+@pytest.fixture(scope="module")
+def averaged(tmp_path_factory):
+    """A run long enough for error bars."""
+    folder = tmp_path_factory.mktemp("averaged")
+    write_scene(folder, changed(with_steps(RODS, 4000), title="rods & <spheres>", output={"trajectory_every": 2000}))
+    finish(folder)
+    return folder
+
+
+def test_a_done_run(averaged):
+    before = snapshot(averaged / "run")
+    page, errors = report(averaged)
+    assert errors == ""
+    require_self_contained(page)
+    folder = averaged / "run/report"
+    assert {path.name for path in folder.iterdir()} == PLOTS | {"view.png", "view.pov", "report.html"}
+    assert page.count('src="data:image/png;base64,') == len(PLOTS) + 1
+    assert size_of(folder / "view.png")[0] == 120
+    assert html.escape("rods & <spheres>") in page and "rods & <spheres>" not in page
+    summary = json.loads((averaged / "run/summary.json").read_text())
+    mean, error, n_eff, _ = numbers_after(page, "compressibility factor Z")
+    assert float(mean) == pytest.approx(summary["Z"]["mean"], abs=summary["Z"]["standard_error"])
+    assert float(error) == pytest.approx(summary["Z"]["standard_error"], rel=0.05)
+    assert float(n_eff) == pytest.approx(summary["Z"]["n_eff"], abs=0.5)
+    assert numbers_after(page, "pressure")[-1] == "kT D⁻³"
+    assert "The run is not done" not in page
+    after = snapshot(averaged / "run")
+    assert {name: after[name] for name in before} == before
+
+
+def test_again_and_elsewhere(averaged):
+    first = (averaged / "run/report").stat().st_ino if (averaged / "run/report").exists() else None
+    report(averaged)  # takes the place of the first
+    assert (averaged / "run/report").stat().st_ino != first
+    before = snapshot(averaged / "run")
+    (averaged / "talk").mkdir(exist_ok=True)  # empty: taken
+    report(averaged, *SMALL, "--out", "talk")
+    assert (averaged / "talk/view.png").exists() and snapshot(averaged / "run") == before
+
+
+@pytest.mark.parametrize("missing", ["povray", "trajectory"])
+def test_without_a_view(finished_copy, missing):
+    """One line says why; everything else is there."""
+    if missing == "trajectory":
+        (finished_copy / "run/trajectory.h5").unlink()
+    page, errors = report(finished_copy, path="/nowhere" if missing == "povray" else None)
+    assert errors.startswith("jostle: No view of the rods: ") and errors.count("\n") == 1
+    assert ("apt-get install povray" if missing == "povray" else "trajectory.h5") in errors
+    assert "No view of the rods" in page
+    assert {path.name for path in (finished_copy / "run/report").iterdir()} == PLOTS | {"report.html"}
+
+
+def test_a_povray_that_fails(finished_copy):
+    programs = finished_copy / "programs"
+    programs.mkdir()
+    (programs / "povray").write_text("#!/bin/sh\necho 'no such scene' >&2\nexit 3\n")
+    (programs / "povray").chmod(0o755)
+    _, errors = report(finished_copy, path=f"{programs}:/bin")
+    assert errors == "jostle: No view of the rods: povray failed with status 3: no such scene\n"
+
+
+def test_a_report_that_is_stopped(finished_copy):
+    """Exit 75, what it began is gone, and so is the povray that it started."""
+    programs = finished_copy / "programs"
+    programs.mkdir()
+    (programs / "povray").write_text(f"#!/bin/sh\necho $$ > {programs}/number\nexec /bin/sleep 600\n")
+    (programs / "povray").chmod(0o755)
+    before = snapshot(finished_copy / "run")
+    process = subprocess.Popen([shutil.which(JOSTLE), "report", "run"], cwd=finished_copy, stderr=subprocess.PIPE,
+                               stdout=subprocess.PIPE, text=True, env={**ENVIRONMENT, "PATH": f"{programs}:/bin"})
+    number = programs / "number"
+    wait_until(lambda: number.exists() and number.read_text().endswith("\n"), process)
+    status, _, errors = kill(process, 15)
+    assert status == STOPPED and errors.count("\n") == 1 and "stopped" in errors
+    end = time.monotonic() + 20.0
+    while Path(f"/proc/{number.read_text().strip()}").exists():
+        assert time.monotonic() < end, "povray runs on"
+        time.sleep(0.01)
+    assert snapshot(finished_copy / "run") == before
+
+
+def test_a_run_that_was_stopped(tmp_path):
+    """No averages yet, and the page says so."""
+    write_scene(tmp_path, with_steps(RODS, 10**6))
+    process = start(tmp_path)
+    wait_until(lambda: rows_of(tmp_path / "run/series.csv") > 700, process)
+    assert kill(process, 15)[0] == STOPPED
+    page, _ = report(tmp_path)
+    require_self_contained(page)
+    assert "The run is not done" in page and "Averages</h2>" not in page
+
+
+def test_swimmers_without_noise(spheres):
+    """kT = 0: the collision pressure takes the place of Z; heads are marked."""
+    write_scene(spheres, changed(SPHERES, fluid={"kT": 0.0}, motion={"brownian": False, "self_propulsion": 1.0}))
+    finish(spheres)
+    page, errors = report(spheres)
+    assert errors == ""
+    folder = spheres / "run/report"
+    assert (folder / "pressure_collision.png").exists() and not (folder / "Z.png").exists()
+    assert "compressibility" not in page.lower()
+    scene = (folder / "view.pov").read_text()
+    heads = scene.count(povray_scene.vector(povray_scene.HEAD))
+    assert heads == SPHERES["rods"]["count"] and scene.count("\nBall(") == 2 * heads
+
+
+def test_the_camera_sees_every_rod_and_no_mirror_image(tmp_path):
+    run = trajectory_by_hand.write(tmp_path / "run", [trajectory_by_hand.rods(40, seed=3)])
+    frame = Trajectory(run).frame(0)
+    for edges in ((10, 8, 6), (6, 8, 10), (10, 2, 10), (7, 7, 7), (3, 30, 3)):
+        frame.edges = np.array(edges, float)
+        camera = povray_scene.Camera(frame)
+        assert np.allclose(np.cross(camera.right, camera.up), -camera.direction)  # right-handed, towards the viewer
+        seen = frame.ends().reshape(-1, 3) - camera.location
+        depth = seen @ camera.direction
+        half_width = np.tan(povray_scene.FIELD_OF_VIEW / 2)
+        assert np.all(depth > 0)
+        assert np.all(np.abs(seen @ camera.right) + 0.5 < depth * half_width)
+        assert np.all(np.abs(seen @ camera.up) + 0.5 < depth * half_width / camera.aspect)
+
+
+def test_what_is_refused(finished_copy):
+    (finished_copy / "notes").mkdir()
+    (finished_copy / "notes/mine.txt").write_text("keep")
+    before = snapshot(finished_copy)
+
+    def refused(*arguments):
+        return command(finished_copy, "report", *arguments)
+
+    require_one_line(refused("absent"), "absent", "there is no such folder")
+    require_one_line(refused("notes"), "not the folder of a run")
+    require_one_line(refused("run", "--width", "wide"), "wide", "100 to 8000")
+    require_one_line(refused("run", "--width", "99"), "100 to 8000")
+    for taken in ("notes", "run"):
+        require_one_line(refused("run", "--out", taken), "is not replaced")
+    require_one_line(refused("run", "--out", "nowhere/report"), "nowhere", "there is no such folder")
+    assert snapshot(finished_copy) == before
+
+
+def test_a_report_with_something_of_the_users_in_it_is_kept(averaged):
+    report(averaged)
+    notes = averaged / "run/report/notes.txt"
+    notes.write_text("keep")
+    require_one_line(command(averaged, "report", "run"), "is not replaced")
+    assert notes.read_text() == "keep"
+    notes.unlink()
+
+
+def test_damaged_series_and_full_disk(finished_copy):
+    before = snapshot(finished_copy / "run")
+    full = command(finished_copy, "report", "run", *SMALL, preexec_fn=file_size_limit(3000))
+    assert full.returncode == DISK and "File too large" in full.stderr
+    assert snapshot(finished_copy / "run") == before
+    series = finished_copy / "run/series.csv"
+    series.write_text(series.read_text().replace(",", ";", 40))
+    require_one_line(command(finished_copy, "report", "run"), "series.csv", "cannot be used")
