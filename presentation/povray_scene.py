@@ -58,9 +58,20 @@ def lights(frame, camera):
             f"light_source {{ {vector(camera.location + size * camera.right)} rgb 0.4 shadowless }}\n")
 
 
+def extent(frame):
+    """(lowest, highest corner) of what is shown: the box where it is periodic, the rods where it is open."""
+    ends = np.concatenate((frame.ends().reshape(-1, 3), frame.centre))
+    if len(ends) == 0:
+        return np.zeros(3), frame.edges
+    return np.where(frame.periodic, 0.0, ends.min(axis=0)), np.where(frame.periodic, frame.edges, ends.max(axis=0))
+
+
 def box_edges(frame):
-    corners = [np.array(corner) * frame.edges for corner in np.ndindex(2, 2, 2)]
-    thickness = 0.0018 * np.linalg.norm(frame.edges)
+    if not frame.periodic.any():
+        return ""
+    low, high = extent(frame)
+    corners = [low + np.array(corner) * (high - low) for corner in np.ndindex(2, 2, 2)]
+    thickness = 0.0018 * np.linalg.norm(high - low)
     text = ""
     for a, first in enumerate(corners):
         for second in corners[a + 1:]:
@@ -73,8 +84,10 @@ class Camera:
     """Looks from above along the shortest edge's side onto the whole box: the longest edge lies across the picture."""
 
     def __init__(self, frame):
-        shortest, middle, longest = np.argsort(frame.edges, kind="stable")[[0, 1, 2]]
-        if frame.edges[longest] < 1.01 * frame.edges[shortest]:
+        low, high = extent(frame)
+        edges = high - low
+        shortest, middle, longest = np.argsort(edges, kind="stable")[[0, 1, 2]]
+        if edges[longest] < 1.01 * edges[shortest]:
             longest, middle, shortest = 0, 1, 2  # a cube stands with z up
         across, away, up = np.eye(3)[[longest, middle, shortest]]
         if np.dot(np.cross(across, away), up) < 0.0:
@@ -87,8 +100,9 @@ class Camera:
 
     def _fit(self, frame):
         """As near as shows everything, in a picture as wide as suits the box."""
-        corners = np.array(list(np.ndindex(2, 2, 2))) * frame.edges
-        middle = 0.5 * frame.edges
+        low, high = extent(frame)
+        corners = low + np.array(list(np.ndindex(2, 2, 2))) * (high - low)
+        middle = 0.5 * (low + high)
         reach = 0.5 * frame.diameter.max(initial=0.0)
         points = np.concatenate((corners, frame.ends().reshape(-1, 3))) - middle
         half_width = np.tan(0.5 * FIELD_OF_VIEW)
