@@ -104,7 +104,8 @@ class Camera:
         corners = low + np.array(list(np.ndindex(2, 2, 2))) * (high - low)
         middle = 0.5 * (low + high)
         reach = 0.5 * frame.diameter.max(initial=0.0)
-        points = np.concatenate((corners, frame.ends().reshape(-1, 3))) - middle
+        shown = [frame.ends().reshape(-1, 3)] + ([corners] if frame.periodic.any() or len(frame) == 0 else [])
+        points = np.concatenate(shown) - middle
         half_width = np.tan(0.5 * FIELD_OF_VIEW)
         x, y, depth = points @ self.right, points @ self.up, points @ self.direction
         # Shifted so that what is seen is in the middle, then far enough for either side.

@@ -1,0 +1,41 @@
+// A dense colony from one cell, in open space: no overlap beyond what a step of growth makes, at any division.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "jostle/simulation/assemble.hpp"
+
+using namespace jostle;
+
+//     ()  ->  ()()  ->  ...  ->  a ball of 2000: the inner ones push all others outwards
+TEST_CASE("two thousand cells from one: no overlap above what two cells grow in a step, after any division") {
+    Scene scene;
+    scene.seed = 2;
+    scene.rods.count = 1;
+    scene.rods.length = 2.0;
+    scene.fluid.kT = 0.001;                     // a little noise lets the line of the first daughters buckle
+    scene.contact.brownian_correction = false;  // whose contacts give way to what many neighbours push
+    scene.time.step = 0.01;
+    scene.growth.rate = 1.0;
+    scene.growth.rate_deviation = 0.1;
+    scene.growth.division_length = 5.0;
+    scene.growth.division_deviation = 0.1;
+    Rods rods;
+    rods.push_back(0, {500, 500, 500}, {1, 0, 0}, 2.0, 1.0);
+    Simulation simulation = assemble(scene, {{1000, 1000, 1000}, {false, false, false}}, std::move(rods), {});
+    double largest = 0.0;
+    std::uint64_t births = 0, iterations = 0;
+    while (simulation.rods().size() < 2000) {
+        const StepReport report = simulation.step();
+        REQUIRE(report.status == LcpStatus::converged);
+        largest = std::max(largest, report.max_overlap);
+        iterations = std::max(iterations, report.iterations);
+        births += simulation.lineage().size();
+    }
+    MESSAGE("steps ", simulation.clock().step, ", largest overlap ", largest, ", most sweeps in a step ", iterations);
+    CHECK(births == simulation.rods().size() - 1);
+    // rate dt (1 + 4 deviations)/2 from each of two cells; the solver's tolerance; and second order in the turns of a
+    // step, squared rms of (0.01)^2 times the length.
+    CHECK(largest < 0.01 * 1.4 + 1e-4 + 2e-3);
+}
