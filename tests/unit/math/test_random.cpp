@@ -97,3 +97,18 @@ TEST_CASE("uniform numbers lie strictly between 0 and 1, evenly") {
     for (const int bin : bins) chi_squared += (bin - expected) * (bin - expected) / expected;
     CHECK(chi_squared < 40.0);  // nine degrees of freedom: false alarm 8e-6
 }
+
+TEST_CASE("exponential numbers are -ln u of the uniform ones") {
+    double worst = 0.0, largest = 0.0;
+    for (std::uint64_t id = 0; id < 1000; ++id) {
+        const RandomKey key{9, 1, Stream::test, id};
+        const auto u = uniform4(key, 3), waiting = exponential4(key, 3);
+        for (std::size_t k = 0; k < 4; ++k) {
+            worst = std::max(worst, std::fabs(waiting[k] + std::log(u[k])));
+            CHECK(waiting[k] > 0.0);
+            largest = std::max(largest, waiting[k]);
+        }
+    }
+    CHECK(worst < 1e-14);
+    CHECK(largest < 22.9);
+}
