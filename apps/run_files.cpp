@@ -47,7 +47,7 @@ SeriesFile resumed_series(const RunDirectory& directory, const Scene& scene, con
 }  // namespace
 
 RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::string resolved_scene,
-                   const Simulation& simulation)
+                   const Simulation& simulation, const StepSums& sums)
     : directory_(directory),
       resolved_scene_(std::move(resolved_scene)),
       series_file_(SeriesFile::create(directory.file("series.csv"), series_columns(scene))) {
@@ -62,7 +62,7 @@ RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::strin
         contacts_file_ = SeriesFile::create(directory.file("contacts.csv"), contact_columns(scene.units.system));
         write_series_description(directory.file("contacts.json"), contacts_file_->columns());
     }
-    write_checkpoint(simulation, {});
+    write_checkpoint(simulation, sums);
 }
 
 RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::string resolved_scene,
