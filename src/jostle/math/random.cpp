@@ -126,10 +126,8 @@ std::array<double, 4> uniform4(const RandomKey& key, std::uint32_t draw) {
             open_unit_interval(words[3])};
 }
 
-std::array<double, 4> exponential4(const RandomKey& key, std::uint32_t draw) {
-    auto numbers = uniform4(key, draw);
-    for (double& number : numbers) number = -logarithm(number);
-    return numbers;
+double exponential(double uniform) {
+    return -logarithm(uniform);
 }
 
 void fill_normals(const RandomKey& key, std::span<const std::uint64_t> ids, std::span<Normals> normals) {

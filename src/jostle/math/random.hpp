@@ -31,9 +31,9 @@ struct RandomKey {
 /// Four independent uniform numbers in the open interval (0, 1), spaced by 2^-32.
 std::array<double, 4> uniform4(const RandomKey& key, std::uint32_t draw);
 
-/// Four independent numbers of the exponential distribution with mean 1, at most 22.9: times between the events of a
-/// Poisson process of rate 1.
-std::array<double, 4> exponential4(const RandomKey& key, std::uint32_t draw);
+/// A number of the exponential distribution with mean 1, at most 22.9, from a uniform one: the time between two events
+/// of a Poisson process of rate 1.
+double exponential(double uniform);
 
 /// Six independent standard normal numbers: one rod's noise in a step.
 using Normals = std::array<double, 6>;

@@ -55,8 +55,8 @@ template <class Visit>
 void for_each_event(const RandomKey& key, double events_per_step, std::uint64_t steps, Visit&& visit) {
     double time = 0.0;
     for (std::uint32_t draw = 0;; ++draw)
-        for (const double waiting : exponential4(key, draw)) {
-            time += waiting / events_per_step;
+        for (const double uniform : uniform4(key, draw)) {
+            time += exponential(uniform) / events_per_step;
             if (!(time < static_cast<double>(steps))) return;
             visit(static_cast<std::uint64_t>(time));
         }
