@@ -48,6 +48,22 @@ std::string with_unit(double value, UnitSystem units, Dimension dimension) {
     return fmt::format("{:.6g} {}", value, unit_of(units, dimension));
 }
 
+void print_swimming(const Scene& scene, const Swimming& swimming, const Mobility& mobility, const Rods& rods,
+                    double dt) {
+    const UnitSystem units = scene.units.system;
+    const double persistence = persistence_time(scene, mobility, rods.size());
+    print("persistence time, free",
+          std::isfinite(persistence) ? with_unit(persistence, units, dimension::time) : "without end");
+    if (swimming.tumble_rate > 0.0) {
+        const double turn =
+            std::numbers::pi / static_cast<double>(Tumbles(swimming.tumble_rate, swimming.tumble_time).steps(dt));
+        print("tumble time", with_unit(swimming.tumble_time, units, dimension::time));
+        print("tumble turns ends per step",
+              fmt::format("{:.3g} D at most", 0.5 * turn * rods.length[0] / rods.diameter[0]));
+    }
+    print("active stress lag", with_unit(active_stress_lag(scene, mobility, rods.size()), units, dimension::time));
+}
+
 void print_motion(const Scene& scene, const Mobility& mobility, const Rods& rods, double dt) {
     const double kT = thermal_energy(scene);
     const UnitSystem units = scene.units.system;
@@ -113,6 +129,7 @@ ExitCode check_command(const std::string& scene_path) {
     const double phi = population.volume / box.volume();
     const auto mobility = make_mobility(scene, population.rods);
     const double dt = time_step(scene, *mobility, population.rods);
+    const Swimming swimming = swimming_in_file(scene, scene_path, population.rods);
     const UnitSystem units = scene.units.system;
 
     std::printf("%s\n# what follows from it\n", to_toml(scene).c_str());
@@ -124,6 +141,7 @@ ExitCode check_command(const std::string& scene_path) {
                              unit_of(units, dimension::length)));
     print("time step", with_unit(dt, units, dimension::time));
     print_motion(scene, *mobility, population.rods, dt);
+    if (scene.motion.self_propulsion != 0.0) print_swimming(scene, swimming, *mobility, population.rods, dt);
     print_cost(scene, population, phi, dt);
     return ExitCode::done;
 }

@@ -119,12 +119,22 @@ private:
         const std::uint64_t step = simulation_.clock().step;
         const auto due = [step](std::uint64_t every) { return every > 0 && step % every == 0; };
         if (due(scene_.output.series_every)) {
+            measure_active_stress();
             files_.append_row(series_row(simulation_, sums_));
             if (scene_.output.contacts) files_.append_contacts(simulation_);
             sums_.start_row();
         }
         if (due(scene_.output.trajectory_every)) files_.append_frame(simulation_);
         if (due(scene_.output.checkpoint_every)) checkpoint();
+    }
+
+    void measure_active_stress() {
+        if (!sums_.active_stress) return;
+        const Rods& rods = simulation_.rods();
+        const StepContext context = {scene_.seed, simulation_.clock().step, simulation_.settings().time_step};
+        const std::vector<Vec3> force =
+            SelfPropulsion(swimming_of(scene_, rods, context.time_step)).forces(rods, simulation_.mobility(), context);
+        sums_.active_virial = sums_.active_stress->virial(rods, simulation_.box(), force);
     }
 
     void checkpoint() {
@@ -243,6 +253,18 @@ bool has_rows(const std::string& series) {
     return std::count(content.begin(), content.end(), '\n') > 1;
 }
 
+/// Sums at the beginning of a run.
+StepSums first_sums(const Scene& scene, const Simulation& simulation) {
+    StepSums sums;
+    if (scene.motion.self_propulsion == 0.0) return sums;
+    const Rods& rods = simulation.rods();
+    const double row_time = simulation.settings().time_step * static_cast<double>(scene.output.series_every);
+    const double rows = std::ceil(active_stress_lag(scene, simulation.mobility(), rods.size()) / row_time - 1e-9);
+    sums.active_stress.emplace(static_cast<std::uint64_t>(std::clamp(rows, 1.0, 1e15)));
+    sums.active_stress->begin(rods, simulation.box());
+    return sums;
+}
+
 ExitCode start_run(const RunOptions& options, const Scene& scene, const std::string& resolved,
                    const std::string& folder) {
     // The start is made before anything is touched on the disk: a scene that does not work out leaves no trace.
@@ -256,8 +278,9 @@ ExitCode start_run(const RunOptions& options, const Scene& scene, const std::str
     const RunDirectory directory(folder);
     replace_file(directory.file("scene.toml"), read_file(options.scene));
     replace_file(directory.file("resolved.toml"), resolved);
-    RunFiles files(directory, scene, resolved, simulation);
-    return Run(options, scene, resolved, simulation, files, directory, {}).go();
+    const StepSums sums = first_sums(scene, simulation);
+    RunFiles files(directory, scene, resolved, simulation, sums);
+    return Run(options, scene, resolved, simulation, files, directory, sums).go();
 }
 
 ExitCode resume_run(const RunOptions& options, const Scene& scene, const std::string& resolved,

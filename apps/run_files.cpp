@@ -76,7 +76,7 @@ SeriesFile resumed_series(const RunDirectory& directory, const Scene& scene, con
 }  // namespace
 
 RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::string resolved_scene,
-                   const Simulation& simulation)
+                   const Simulation& simulation, const StepSums& sums)
     : directory_(directory),
       scene_(scene),
       resolved_scene_(std::move(resolved_scene)),
@@ -94,7 +94,7 @@ RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::strin
         side_files_[k] = SeriesFile::create(directory.file(tables[k].name + ".csv"), tables[k].columns);
         write_series_description(directory.file(tables[k].name + ".json"), tables[k].columns);
     }
-    write_checkpoint(simulation, {});
+    write_checkpoint(simulation, sums);
 }
 
 RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::string resolved_scene,

@@ -18,7 +18,7 @@ class RunFiles {
 public:
     /// Files of a new run; `simulation` stands at its beginning.
     RunFiles(const jostle::RunDirectory& directory, const jostle::Scene& scene, std::string resolved_scene,
-             const jostle::Simulation& simulation);
+             const jostle::Simulation& simulation, const StepSums& sums);
     /// Files of a run that goes on from a checkpoint. Nothing is cut before all files were found to be sound.
     RunFiles(const jostle::RunDirectory& directory, const jostle::Scene& scene, std::string resolved_scene,
              const jostle::Checkpoint& checkpoint);

@@ -8,6 +8,23 @@
 
 using namespace jostle;
 
+namespace {
+
+void append_active_columns(const Scene& scene, std::vector<SeriesColumn>& columns) {
+    const std::string stress = unit_of(scene.units.system, dimension::stress);
+    const std::string sign =
+        "positive in compression; not a number in the rows before the first displacements of that age";
+    columns.push_back({"pressure_active", stress, "Pi_act", "Tr Sigma_act/3 at this step", sign});
+    for (const char* name : active_stress_column_names)
+        columns.push_back({name, stress, "Sigma_act",
+                           "element of the active (swim) stress at this step: sum over rods of x F over the volume, "
+                           "with F = U/M_par n the force of the propulsion (0 while a rod tumbles) and x how far, "
+                           "unwrapped, the rod has come in the last 1 to 2 active_stress_lag (position, force)",
+                           sign});
+}
+
+}  // namespace
+
 std::vector<SeriesColumn> series_columns(const Scene& scene) {
     const UnitSystem units = scene.units.system;
     const std::string stress = unit_of(units, dimension::stress);
@@ -42,6 +59,7 @@ std::vector<SeriesColumn> series_columns(const Scene& scene) {
                        ""});
     columns.push_back({"max_overlap", length, "",
                        "largest overlap of two rods, largest of the steps since the last row", "positive: overlap"});
+    if (scene.motion.self_propulsion != 0.0) append_active_columns(scene, columns);
     if (!scene.output.stress_conventions) return columns;
     for (const char* name : centre_of_mass_column_names)
         columns.push_back({name, stress, "",
@@ -78,6 +96,10 @@ std::vector<double> series_row(const Simulation& simulation, const StepSums& sum
     for (const double sum : {sums.contacts, sums.active_contacts, sums.iterations}) row.push_back(sum / sums.steps);
     row.push_back(sums.residual);
     row.push_back(sums.max_overlap);
+    if (sums.active_stress) {
+        row.push_back(trace(sums.active_virial) / (3.0 * volume));
+        for (const double element : sums.active_virial.m) row.push_back(element / volume);
+    }
     if (!simulation.settings().stress_conventions) return row;
     for (const Mat3* sum : {&sums.centre_of_mass_virial, &sums.centre_line_virial})
         for (const double element : sum->m) row.push_back(element / (sums.steps * volume));

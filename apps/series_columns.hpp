@@ -12,6 +12,10 @@
 inline constexpr std::array<const char*, 9> stress_column_names = {"stress_xx", "stress_xy", "stress_xz",
                                                                    "stress_yx", "stress_yy", "stress_yz",
                                                                    "stress_zx", "stress_zy", "stress_zz"};
+/// The same of the active stress, where rods swim.
+inline constexpr std::array<const char*, 9> active_stress_column_names = {
+    "stress_active_xx", "stress_active_xy", "stress_active_xz", "stress_active_yx", "stress_active_yy",
+    "stress_active_yz", "stress_active_zx", "stress_active_zy", "stress_active_zz"};
 /// The same of two other conventions, with `output.stress_conventions`.
 inline constexpr std::array<const char*, 9> centre_of_mass_column_names = {
     "centre_of_mass_xx", "centre_of_mass_xy", "centre_of_mass_xz", "centre_of_mass_yx", "centre_of_mass_yy",

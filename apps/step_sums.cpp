@@ -1,6 +1,8 @@
 #include "step_sums.hpp"
 
 #include <algorithm>
+#include <span>
+#include <utility>
 
 #include "jostle/error/input_error.hpp"
 
@@ -25,7 +27,8 @@ void StepSums::start_row() {
     StepSums fresh;
     fresh.run_max_overlap = run_max_overlap;
     fresh.run_iterations = run_iterations;
-    *this = fresh;
+    fresh.active_stress = std::move(active_stress);
+    *this = std::move(fresh);
 }
 
 std::vector<double> StepSums::to_numbers() const {
@@ -33,11 +36,16 @@ std::vector<double> StepSums::to_numbers() const {
                                    max_overlap, run_max_overlap, run_iterations,  rods};
     for (const Mat3* sum : {&collision_virial, &centre_of_mass_virial, &centre_line_virial})
         numbers.insert(numbers.end(), sum->m.begin(), sum->m.end());
+    if (active_stress) {
+        const std::vector<double> positions = active_stress->to_numbers();
+        numbers.insert(numbers.end(), positions.begin(), positions.end());
+    }
     return numbers;
 }
 
 StepSums StepSums::from_numbers(const std::vector<double>& numbers) {
-    if (numbers.size() != 9 + 3 * 9)
+    constexpr std::size_t sums_count = 9 + 3 * 9;
+    if (numbers.size() < sums_count)
         throw InputError({.key = "checkpoint",
                           .problem = "it holds sums of another version of jostle",
                           .suggestion = "Start anew with --fresh"});
@@ -56,5 +64,7 @@ StepSums StepSums::from_numbers(const std::vector<double>& numbers) {
         std::copy(from, from + 9, sum->m.begin());
         from += 9;
     }
+    if (numbers.size() > sums_count)
+        sums.active_stress = ActiveStress::from_numbers(std::span(numbers).subspan(sums_count));
     return sums;
 }

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "jostle/simulation/step_report.hpp"
+#include "jostle/stress/active_stress.hpp"
 
 /// What is added up over the steps of one row of the series, and over the whole run. Goes into every checkpoint.
 struct StepSums {
@@ -18,6 +20,9 @@ struct StepSums {
     // since the start of the run
     double run_max_overlap = 0.0;
     double run_iterations = 0.0;
+    // of swimmers
+    std::optional<jostle::ActiveStress> active_stress;
+    jostle::Mat3 active_virial;  ///< V times it, at the step of the row
 
     void add(const jostle::StepReport& report);
     void start_row();

@@ -111,6 +111,20 @@ double eigenvalue_ratio(std::span<const double> stress) {
     return anisotropy_ratio(stress_of(stress));
 }
 
+/// The active stress, over the rows of the window that have one.
+void summarise_active_stress(const SeriesTable& series, std::size_t first, const std::string& unit, Json& summary) {
+    const std::vector<double>& pressure = series.column("pressure_active");
+    while (first < pressure.size() && !std::isfinite(pressure[first])) ++first;
+    summary["pressure_active"] = described(average(from_row(pressure, first)), unit);
+    if (first >= pressure.size()) {
+        summary["pressure_active"]["mean"] = nullptr;
+        summary["pressure_active"]["no_standard_error_because"] =
+            "The run is shorter than output.active_stress_lag: displacements are not old enough.";
+        return;
+    }
+    summary["stress_active"] = tensor_entry(window_columns(series, first, active_stress_column_names), unit);
+}
+
 /// Eigenvalues of the mean collision stress, ascending.
 Json mean_principal_stresses(const Columns& stress) {
     std::array<double, 9> mean{};
@@ -212,6 +226,7 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
                                               simulation.box().volume() * simulation.settings().kT},
                                  {"unit", stress_unit},
                                  {"definition", "n kT, on the diagonal"}};
+    if (scene.motion.self_propulsion != 0.0) summarise_active_stress(series, first, stress_unit, summary);
     summary["principal_stresses_collision"] = {{"mean", mean_principal_stresses(stress)}, {"unit", stress_unit}};
     if (scene.output.stress_conventions)
         for (const auto& [name, columns] : {std::pair{"centre_of_mass", centre_of_mass_column_names},
@@ -253,6 +268,7 @@ std::string summary_text(const Json& summary) {
     line(entry("Z"), "Z");
     line(entry("pressure"), "pressure");
     line(entry("pressure_collision"), "collision pressure");
+    line(entry("pressure_active"), "active pressure");
     line(entry("nematic_order"), "nematic order S");
     line(entry("anisotropy"), "stress anisotropy");
     if (summary["oracles"].contains("anisotropy"))

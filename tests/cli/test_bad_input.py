@@ -46,6 +46,11 @@ VALUES = [
     ("time", "rms_step", 0.03, "is given beside time.step", "one of the two"),
     ("rods", "axis", [1, 0, 0], "is not used with rods.start", 'Set start = "aligned"'),
     ("contact", "model", "soft", "is not one of the words", '"wca"'),
+    ("motion", "self_propulsion", -1.0, "is negative", "at least 0"),
+    ("motion", "tumble_rate", 1.0, "is not used with motion.self_propulsion = 0", "Set self_propulsion"),
+    ("motion", "self_propulsion_deviation", 0.5, "is not used with motion.self_propulsion = 0", "Set self_propulsion"),
+    ("motion", "reversal_rate", 0.0, "is not used with motion.self_propulsion = 0", "or remove it"),
+    ("output", "active_stress_lag", 3.0, "is not used with motion.self_propulsion = 0", "nothing swims"),
     ("contact", "energy", 1.0, 'is not used with contact.model = "hard"', 'Set model = "wca"'),
     ("growth", "rate", -1.0, "is negative", "at least 0"),
     ("growth", "death_rate", 0.1, "is not used without growth.rate", "Add rate"),
@@ -97,6 +102,45 @@ def test_value(finished_copy, entry):
 def test_growth(finished_copy, entry):
     changes, *parts = entry
     refuse(finished_copy, changed(RODS, growth={"rate": 0.1, "division_length": 5.0, **changes}), *parts)
+
+
+# Of rods that swim and tumble.
+SWIMMERS = [
+    ("self_propulsion_deviation", -0.5, "is negative", "at least 0"),
+    ("self_propulsion_deviation", Verbatim("nan"), "is not a finite number", "at least 0"),
+    ("tumble_rate", -1.0, "is negative", "at least 0"),
+    ("tumble_rate", Verbatim("inf"), "is not a finite number", "at least 0"),
+    ("tumble_rate", 0.0, None),
+    ("tumble_rate", 60.0, "is more than one tumble in a time step", "at most 50"),
+    ("tumble_time", 0.0, "is zero", "greater than 0"),
+    ("tumble_time", 21.0, "leaves rods no time to swim between tumbles", "at most 20"),
+    ("tumble_time", 0.1, "is too short: the ends of a rod would pass through others", "at least 0.26"),
+    ("reversal_rate", -1.0, "is negative", "at least 0"),
+    ("reversal_rate", Verbatim("-inf"), "is not a finite number", "at least 0"),
+]
+
+
+@pytest.mark.parametrize("entry", SWIMMERS, ids=lambda entry: f"{entry[0]}={entry[1]}")
+def test_swimmers(finished_copy, entry):
+    key, value, *parts = entry
+    motion = {"self_propulsion": 1.0, "self_propulsion_deviation": 0.1, "tumble_rate": 0.5, "tumble_time": 0.4,
+              "reversal_rate": 0.5}
+    if value == 60.0:
+        motion["tumble_time"] = None
+    scene = changed(changed(RODS, motion=motion), motion={key: value})
+    if parts[0] is None:  # then it is the time that means nothing
+        key, value, parts = "tumble_time", 0.4, ["is not used with motion.tumble_rate = 0", "Set tumble_rate"]
+    at = place_of(scene_text(scene), "motion", key)
+    refuse(finished_copy, scene, f"jostle: scene.toml:{at}: motion.{key} = ", *parts)
+
+
+def test_tumbles_too_fast_for_a_step_from_the_diffusion(tmp_path):
+    scene = changed(RODS, motion={"self_propulsion": 1.0, "tumble_rate": 0.5, "tumble_time": 0.01}, time={"step": None})
+    write_scene(tmp_path, scene)
+    for name in ("check", "run"):
+        require_one_line(command(tmp_path, name, "scene.toml"), "jostle: scene.toml: motion.tumble_time = 0.01: is too short",
+                         "(allowed: at least ", "Use a shorter time.step or slower tumbles")
+    assert sorted(entry.name for entry in tmp_path.iterdir()) == ["scene.toml"]
 
 
 @pytest.mark.parametrize("table, key, example", [("rods", "count", "count = 2000"), ("rods", "length", "length = 5.0"),

@@ -13,6 +13,7 @@ SERIES = (["step", "time", "N", "phi", "Z", "pressure", "pressure_collision"]
           + [f"order_{ab}" for ab in ("xx", "xy", "xz", "yy", "yz", "zz")]
           + ["contacts", "active_contacts", "iterations", "residual", "max_overlap"])
 AVERAGE = {"mean", "standard_error", "n_eff", "standard_deviation"}
+ACTIVE = ["pressure_active"] + [f"stress_active_{a}{b}" for a in "xyz" for b in "xyz"]
 MICRO = {
     "seed": 4,
     "units": {"system": "micro"},
@@ -32,7 +33,7 @@ def read(folder, name):
     return json.loads((folder / name).read_text(), parse_constant=refuse)
 
 
-def complete(folder, scene):
+def complete(folder, scene, columns=SERIES):
     """Runs the scene, checks what every run promises, and returns folder and summary."""
     write_scene(folder, scene)
     result = finish(folder)
@@ -54,10 +55,10 @@ def complete(folder, scene):
     for name in ("started", "command", "host", "processor", "threads", "wall_seconds"):
         assert name in record["sessions"][0], name
     description = read(result, "series.json")
-    assert [entry["name"] for entry in description["columns"]] == SERIES
+    assert [entry["name"] for entry in description["columns"]] == columns
     for entry in description["columns"]:
         assert entry["unit"] and entry["definition"]
-    assert (result / "series.csv").read_text().splitlines()[0] == ",".join(SERIES)
+    assert (result / "series.csv").read_text().splitlines()[0] == ",".join(columns)
     assert (result / "scene.toml").read_text() == (folder / "scene.toml").read_text()
     return result, summary
 
@@ -181,7 +182,7 @@ def test_first_frame_is_the_file(tmp_path):
 def test_only_self_propulsion(tmp_path):
     """Without thermal energy there is no Z; the rods still collide."""
     scene = changed(with_steps(RODS, 300), fluid={"kT": 0.0}, motion={"brownian": False, "self_propulsion": 1.0})
-    folder, summary = complete(tmp_path, scene)
+    folder, summary = complete(tmp_path, scene, SERIES + ACTIVE)
     assert "Z" not in summary and summary["oracles"] == {}
     assert all(math.isnan(value) for value in column(folder / "series.csv", "Z"))
     assert summary["pressure"]["mean"] == pytest.approx(summary["pressure_collision"]["mean"], rel=1e-12)
@@ -189,6 +190,35 @@ def test_only_self_propulsion(tmp_path):
     other = changed(scene, fluid={"kT": 1.0})  # brownian = false alone does the same
     write_scene(tmp_path / "other", other)
     assert (finish(tmp_path / "other") / "series.csv").read_bytes() == (folder / "series.csv").read_bytes()
+
+
+SWIMMERS = changed(RODS, rods={"count": 1, "length": 2.0}, box={"volume_fraction": None, "edges": [5.0, 5.0, 5.0]},
+                   motion={"brownian": False, "self_propulsion": 1.0}, output={"series_every": 5, "contacts": False})
+
+
+def test_active_stress_of_one_swimmer(tmp_path):
+    """Without noise x F is (U n)(U n) age/mu_par: by hand, through the faces of the box."""
+    scene = changed(with_steps(SWIMMERS, 1000), output={"active_stress_lag": 2.0})
+    folder, summary = complete(tmp_path, scene, SERIES + ACTIVE)
+    p = 3.0
+    bracket = math.log(p) - 0.207 + 0.980 / p - 0.133 / p**2 + (2 / 3 + 0.207 - 0.980 + 0.133) / p**4
+    mobility = bracket / (2 * math.pi * 3.0)
+    pressure = column(folder / "series.csv", "pressure_active")
+    for row, value in enumerate(pressure, 1):
+        age = (20 + row % 20) * 0.1  # a lag is 20 rows of 5 steps
+        assert math.isnan(value) if row < 20 else value == pytest.approx(age / mobility / 3 / 125, rel=1e-6), row
+    rows = {ab: column(folder / "series.csv", f"stress_active_{ab}")[40] for ab in ("xx", "yy", "zz", "xy", "yx")}
+    assert rows["xx"] + rows["yy"] + rows["zz"] == pytest.approx(3 * pressure[40], rel=1e-9)
+    assert rows["xy"] == pytest.approx(rows["yx"], rel=1e-6)
+    assert summary["pressure_active"]["mean"] == pytest.approx(sum(pressure[19:]) / len(pressure[19:]), rel=1e-9)
+    assert summary["pressure_active"]["unit"] == summary["stress_active"]["unit"] == "kT D-3"
+    assert [len(row) for row in summary["stress_active"]["mean"]] == [3, 3, 3]
+
+
+def test_active_stress_of_a_run_that_is_too_short(tmp_path):
+    _, summary = complete(tmp_path, changed(SWIMMERS, output={"active_stress_lag": 100.0}), SERIES + ACTIVE)
+    assert summary["pressure_active"]["mean"] is None and "stress_active" not in summary
+    assert "output.active_stress_lag" in summary["pressure_active"]["no_standard_error_because"]
 
 
 def test_one_rod(tmp_path):

@@ -113,6 +113,25 @@ def test_walltime_then_to_the_end(tmp_path):
     assert column(tmp_path / "stopped/run/series.csv", "step") == list(range(5, 61, 5))
 
 
+def test_swimmers_that_tumble_go_on(tmp_path):
+    """Stopped in the middle of tumbles, with the positions that the active stress counts from, on two threads."""
+    scene = changed(RODS, rods={"count": 600},
+                    motion={"self_propulsion": 1.0, "self_propulsion_deviation": 0.3, "tumble_rate": 2.0,
+                            "tumble_time": 0.4, "reversal_rate": 1.0},
+                    output={"active_stress_lag": 1.0, "contacts": False})
+    scene = with_steps(scene, 400)
+    for name in ("reference", "stopped"):
+        write_scene(tmp_path / name, scene)
+    reference = finish(tmp_path / "reference")
+    for rows in (7, 33):
+        process = start(tmp_path / "stopped", threads=2)
+        wait_until(lambda: rows_of(tmp_path / "stopped/run/series.csv") > rows, process)
+        assert kill(process, signal.SIGTERM)[0] == STOPPED
+    finish(tmp_path / "stopped")
+    require_same_results(tmp_path / "stopped/run", reference, same_command=False)
+    assert all(value > 0 for value in column(reference / "series.csv", "pressure_active")[9:])
+
+
 @pytest.mark.parametrize("text", ["3", "1:60", "1:00:60", "-1:00", "1:00 ", "one hour", ""])
 def test_walltime_that_is_none(tmp_path, text):
     write_scene(tmp_path, RODS)

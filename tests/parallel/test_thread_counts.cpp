@@ -159,6 +159,12 @@ TEST_CASE("spheres: the same bits after 30 steps with 1, 2 and 4 threads") {
     check_steps_with_every_thread_count(crowd(crowd_count, 0.0, 0.3));
 }
 
+TEST_CASE("swimmers that tumble and turn round: the same bits after 30 steps with 1, 2 and 4 threads") {
+    Scene scene = crowd(crowd_count, 2.0, 0.3);
+    scene.motion = {true, 2.0, 0.5, 5.0, 0.2, 5.0};
+    check_steps_with_every_thread_count(scene);
+}
+
 TEST_CASE("a random start has the same bits with 1, 2 and 4 threads") {
     const Scene scene = crowd(600, 5.0, 0.2);
     const Rods one_thread = start_of(scene, 1);

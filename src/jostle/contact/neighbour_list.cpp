@@ -186,9 +186,11 @@ double NeighbourList::find_extents(const Rods& rods, const Box& box, std::span<c
             for (std::size_t k = 0; k < 3; ++k) crossed[k] = rods.image[i][k] - reference_.image[i][k];
             moved += box.displacement(crossed);
         }
-        const double extent =
-            farthest_displacement(moved, rods.axis[i] - reference_.axis[i], 0.5 * reference_.length[i]) +
-            0.5 * std::max(0.0, rods.length[i] - reference_.length[i]) + reach[i];
+        // A rod that was turned round is the same body: what counts is how far its points are from any of before.
+        const Vec3 &axis = rods.axis[i], &before = reference_.axis[i];
+        const Vec3 turned = dot(axis, before) < 0.0 ? axis + before : axis - before;
+        const double extent = farthest_displacement(moved, turned, 0.5 * reference_.length[i]) +
+                              0.5 * std::max(0.0, rods.length[i] - reference_.length[i]) + reach[i];
         set_extent(i, extent);
         return extent;
     });

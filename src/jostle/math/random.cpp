@@ -126,6 +126,10 @@ std::array<double, 4> uniform4(const RandomKey& key, std::uint32_t draw) {
             open_unit_interval(words[3])};
 }
 
+double exponential(double uniform) {
+    return -logarithm(uniform);
+}
+
 void fill_normals(const RandomKey& key, std::span<const std::uint64_t> ids, std::span<Normals> normals) {
     assert(ids.size() == normals.size());
     std::array<std::uint64_t, batch> these{};

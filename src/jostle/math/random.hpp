@@ -7,7 +7,17 @@
 namespace jostle {
 
 /// Streams keep the random numbers of different purposes independent of one another.
-enum class Stream : std::uint32_t { brownian = 1, start = 2, test = 3, growth = 4, death = 5 };
+enum class Stream : std::uint32_t {
+    brownian = 1,
+    start = 2,
+    test = 3,
+    growth = 4,
+    death = 5,
+    swimming_speed = 8,
+    reversal = 9,
+    tumble_time = 10,
+    tumble_rotation = 11  // at most 15
+};
 
 /// Random numbers as a pure function of (seed, step, stream, id, draw): Philox4x32-10 (Salmon et al. 2011).
 ///
@@ -22,6 +32,10 @@ struct RandomKey {
 
 /// Four independent uniform numbers in the open interval (0, 1), spaced by 2^-32.
 std::array<double, 4> uniform4(const RandomKey& key, std::uint32_t draw);
+
+/// A number of the exponential distribution with mean 1, at most 22.9, from a uniform one: the time between two events
+/// of a Poisson process of rate 1.
+double exponential(double uniform);
 
 /// Six independent standard normal numbers: one rod's noise in a step.
 using Normals = std::array<double, 6>;

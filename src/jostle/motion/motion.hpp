@@ -21,6 +21,9 @@ public:
 
     /// Adds this motion's velocities to `known`, one row a rod.
     virtual void add_to(Velocities& known, const Rods& rods, const StepContext& context) const = 0;
+
+    /// Changes rods at the end of a step, where that moves no point of a body: turning a rod round.
+    virtual void between_steps(Rods& /*rods*/, const StepContext& /*context*/) const {}
 };
 
 }  // namespace jostle

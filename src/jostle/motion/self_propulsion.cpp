@@ -1,29 +1,81 @@
 #include "jostle/motion/self_propulsion.hpp"
 
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <sstream>
 
 #include "jostle/error/input_error.hpp"
+#include "jostle/math/random.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
 
-SelfPropulsion::SelfPropulsion(double speed) : speed_(speed) {
-    if (std::isfinite(speed)) return;
-    std::ostringstream value;
-    value << speed;
-    throw InputError({.key = "motion.self_propulsion",
-                      .value = value.str(),
-                      .problem = "is no speed",
-                      .allowed = "any finite number",
-                      .suggestion = {},
-                      .place = {}});
+namespace {
+
+constexpr std::size_t part = 256;  ///< rods whose numbers are drawn together
+
+void require(bool good, const char* key, double value, const char* problem, const char* allowed) {
+    if (good) return;
+    std::ostringstream text;
+    text << value;
+    throw InputError(
+        {.key = key, .value = text.str(), .problem = problem, .allowed = allowed, .suggestion = {}, .place = {}});
 }
 
-void SelfPropulsion::add_to(Velocities& known, const Rods& rods, const StepContext& /*context*/) const {
+}  // namespace
+
+SelfPropulsion::SelfPropulsion(const Swimming& swimming)
+    : swimming_(swimming), tumbles_(swimming.tumble_rate, swimming.tumble_time) {
+    const auto& [speed, deviation, tumble_rate, tumble_time, reversal_rate] = swimming_;
+    require(std::isfinite(speed), "motion.self_propulsion", speed, "is no speed", "any finite number");
+    require(std::isfinite(deviation) && deviation >= 0.0, "motion.self_propulsion_deviation", deviation,
+            "is no standard deviation", ">= 0, finite");
+    require(std::isfinite(reversal_rate) && reversal_rate >= 0.0, "motion.reversal_rate", reversal_rate, "is no rate",
+            ">= 0, finite");
+}
+
+void SelfPropulsion::add_to(Velocities& known, const Rods& rods, const StepContext& context) const {
     assert(known.size() == rods.size());
-    parallel_for(rods.size(), [&](std::size_t i) { known.linear[i] += speed_ * rods.axis[i]; });
+    const std::vector<double> speed = speeds(rods, context.seed);
+    parallel_for(rods.size(), [&](std::size_t i) {
+        if (const auto turning = tumbles_.angular_velocity(rods.id[i], context))
+            known.angular[i] += *turning;
+        else
+            known.linear[i] += speed[i] * rods.axis[i];
+    });
+}
+
+void SelfPropulsion::between_steps(Rods& rods, const StepContext& context) const {
+    if (swimming_.reversal_rate == 0.0) return;
+    // Of a Poisson process: an odd number of events in the step. Twice turned round is not turned.
+    const double odd = -0.5 * std::expm1(-2.0 * swimming_.reversal_rate * context.time_step);
+    parallel_for(rods.size(), [&](std::size_t i) {
+        if (uniform4({context.seed, context.step, Stream::reversal, rods.id[i]}, 0)[0] < odd)
+            rods.axis[i] = -rods.axis[i];
+    });
+}
+
+std::vector<double> SelfPropulsion::speeds(const Rods& rods, std::uint64_t seed) const {
+    std::vector<double> speed(rods.size(), swimming_.speed);
+    if (swimming_.deviation == 0.0) return speed;
+    const RandomKey key{seed, 0, Stream::swimming_speed, 0};
+    parallel_for_blocks(rods.size(), part, [&](std::size_t, std::size_t begin, std::size_t end) {
+        std::array<Normals, part> normals;
+        fill_normals(key, {rods.id.data() + begin, end - begin}, {normals.data(), end - begin});
+        for (std::size_t i = begin; i < end; ++i) speed[i] += swimming_.deviation * normals[i - begin][0];
+    });
+    return speed;
+}
+
+std::vector<Vec3> SelfPropulsion::forces(const Rods& rods, const Mobility& mobility, const StepContext& context) const {
+    std::vector<Vec3> force(rods.size());
+    const std::vector<double> speed = speeds(rods, context.seed);
+    parallel_for(rods.size(), [&](std::size_t i) {
+        if (!tumbles_.angular_velocity(rods.id[i], context))
+            force[i] = (speed[i] / mobility.of_rod(i).parallel) * rods.axis[i];
+    });
+    return force;
 }
 
 }  // namespace jostle

@@ -1,19 +1,45 @@
 #pragma once
 
+#include "jostle/mobility/mobility.hpp"
 #include "jostle/motion/motion.hpp"
+#include "jostle/motion/tumbles.hpp"
 
 namespace jostle {
 
-/// Every rod swims along its axis n with the same speed: U = U_0 n (theory, eq. 2.1).
+/// How rods swim.
+struct Swimming {
+    double speed = 0.0;          ///< U_0 (length/time), of either sign; mean over rods
+    double deviation = 0.0;      ///< standard deviation of the rods' own speeds (length/time)
+    double tumble_rate = 0.0;    ///< (1/time)
+    double tumble_time = 0.0;    ///< that a tumble takes (time)
+    double reversal_rate = 0.0;  ///< (1/time)
+};
+
+/// Every rod swims along its axis n: U = U_i n (theory, eq. 2.1); it may tumble and turn round (theory, section 2.6).
+///
+/// A rod's own speed U_i is a normal number of mean `speed`, a function of (seed, id): its own for life. Where the mean
+/// is not far above the deviation, some rods swim backwards.
+/// A tumbling rod does not swim: it turns (`Tumbles`). A reversal exchanges head and tail, n -> -n, between two steps:
+/// the same body, swimming back.
 class SelfPropulsion final : public Motion {
 public:
-    /// speed U_0 (length/time), of either sign; not finite: InputError (key "motion.self_propulsion").
-    explicit SelfPropulsion(double speed);
+    /// Not finite, or but for the speed negative: InputError (key "motion.self_propulsion" and so on).
+    explicit SelfPropulsion(const Swimming& swimming);
+    explicit SelfPropulsion(double speed) : SelfPropulsion(Swimming{.speed = speed}) {}
 
     void add_to(Velocities& known, const Rods& rods, const StepContext& context) const override;
+    void between_steps(Rods& rods, const StepContext& context) const override;
+
+    /// The rods' own speeds (N), whatever they do now.
+    std::vector<double> speeds(const Rods& rods, std::uint64_t seed) const;
+
+    /// The forces U_i n/mu_parallel that would drag the rods along as they swim in this step (N); 0 for a rod that
+    /// tumbles.
+    std::vector<Vec3> forces(const Rods& rods, const Mobility& mobility, const StepContext& context) const;
 
 private:
-    double speed_;
+    Swimming swimming_;
+    Tumbles tumbles_;
 };
 
 }  // namespace jostle

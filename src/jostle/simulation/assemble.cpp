@@ -1,9 +1,14 @@
 #include "jostle/simulation/assemble.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <numbers>
 
 #include "jostle/contact/wca_forces.hpp"
+#include "jostle/error/input_error.hpp"
 #include "jostle/mobility/drag.hpp"
 #include "jostle/mobility/drag_mobility.hpp"
 #include "jostle/motion/brownian_motion.hpp"
@@ -11,6 +16,26 @@
 #include "jostle/simulation/validate_scene.hpp"
 
 namespace jostle {
+
+namespace {
+
+/// Of the mean time between tumbles, with tumble_time = "auto": as bacteria do (Berg and Brown 1972).
+constexpr double automatic_tumble_share = 0.1;
+/// A tumble that turns the ends of a rod by more than this in a step (in D) could carry them through others.
+constexpr double farthest_turn = 0.25;
+/// Persistence times after which a free swimmer has forgotten where it swam: exp(-5) = 0.7 %.
+constexpr double automatic_lag = 5.0;
+
+[[noreturn]] void refuse_tumbles(const char* key, double value, std::string problem, std::string allowed) {
+    throw InputError({.key = key,
+                      .value = fmt::format("{:.4g}", value),
+                      .problem = std::move(problem),
+                      .allowed = std::move(allowed),
+                      .suggestion = "Use a shorter time.step or slower tumbles",
+                      .place = {}});
+}
+
+}  // namespace
 
 std::unique_ptr<Mobility> make_mobility(const Scene& scene, const Rods& rods) {
     const bool slender = scene.mobility.model == MobilityModel::slender_body;
@@ -46,6 +71,40 @@ double time_step(const Scene& scene, const Mobility& mobility, const Rods& rods)
     }
     require_short_growth(scene, step);
     return step;
+}
+
+Swimming swimming_of(const Scene& scene, const Rods& rods, double time_step) {
+    const Scene::MotionTable& motion = scene.motion;
+    Swimming swimming = {motion.self_propulsion, motion.self_propulsion_deviation, motion.tumble_rate, 0.0,
+                         motion.reversal_rate};
+    if (motion.tumble_rate == 0.0) return swimming;
+    swimming.tumble_time = motion.tumble_time.value_or(automatic_tumble_share / motion.tumble_rate);
+    if (motion.tumble_rate * time_step > 1.0)
+        refuse_tumbles("motion.tumble_rate", motion.tumble_rate, "is more than one tumble in a time step",
+                       fmt::format("at most {:.4g}", 1.0 / time_step));
+    for (std::size_t i = 0; i < rods.size(); ++i) {
+        const double fewest = std::numbers::pi * 0.5 * rods.length[i] / (farthest_turn * rods.diameter[i]);
+        if (static_cast<double>(Tumbles(motion.tumble_rate, swimming.tumble_time).steps(time_step)) < fewest)
+            refuse_tumbles("motion.tumble_time", swimming.tumble_time,
+                           "is too short: the ends of a rod would pass through others in a single step",
+                           fmt::format("at least {:.4g}", std::ceil(fewest) * time_step));
+    }
+    return swimming;
+}
+
+double persistence_time(const Scene& scene, const Mobility& mobility, std::size_t rod_count) {
+    const double kT = thermal_energy(scene);
+    const double turns = scene.motion.tumble_rate + 2.0 * scene.motion.reversal_rate;
+    double longest = 0.0;
+    for (std::size_t i = 0; i < rod_count; ++i)
+        longest = std::max(longest, 1.0 / (2.0 * kT * mobility.of_rod(i).rotational + turns));
+    return longest;
+}
+
+double active_stress_lag(const Scene& scene, const Mobility& mobility, std::size_t rod_count) {
+    if (scene.output.active_stress_lag) return *scene.output.active_stress_lag;
+    const double persistence = persistence_time(scene, mobility, rod_count);
+    return std::isfinite(persistence) ? automatic_lag * persistence : 0.1 * scene.time.production;
 }
 
 namespace {
@@ -88,7 +147,7 @@ Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock) 
     std::vector<std::unique_ptr<Motion>> motions;
     if (settings.kT > 0.0) motions.push_back(std::make_unique<BrownianMotion>(settings.kT, *mobility));
     if (scene.motion.self_propulsion != 0.0)
-        motions.push_back(std::make_unique<SelfPropulsion>(scene.motion.self_propulsion));
+        motions.push_back(std::make_unique<SelfPropulsion>(swimming_of(scene, rods, settings.time_step)));
     return Simulation(box, std::move(rods), clock, std::move(mobility), std::move(motions), settings);
 }
 

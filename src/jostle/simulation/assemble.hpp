@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "jostle/motion/self_propulsion.hpp"
 #include "jostle/simulation/scene.hpp"
 #include "jostle/simulation/simulation.hpp"
 
@@ -20,6 +21,17 @@ double fastest_diffusion(double kT, const Mobility& mobility, std::size_t rod_co
 
 /// kT of the Brownian motion; 0 where there is none.
 double thermal_energy(const Scene& scene);
+
+/// How the rods of a scene swim. Throws InputError where tumbles are too fast for the time step.
+Swimming swimming_of(const Scene& scene, const Rods& rods, double time_step);
+
+/// How long a free swimmer keeps its direction, 1/(2 D_R + tumble rate + 2 reversal rate): of the first `rod_count`
+/// rods the one that does so longest; infinite without rotation, tumbles and reversals.
+double persistence_time(const Scene& scene, const Mobility& mobility, std::size_t rod_count);
+
+/// `output.active_stress_lag`, a time; "auto": 5 persistence times, or a tenth of `time.production` where those are
+/// infinite.
+double active_stress_lag(const Scene& scene, const Mobility& mobility, std::size_t rod_count);
 
 /// A simulation of a scene that starts at, or goes on from, the given state.
 Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock);

@@ -65,7 +65,11 @@ struct Scene {
 
     struct MotionTable {
         bool brownian = true;
-        double self_propulsion = 0.0;  // speed along the axis
+        double self_propulsion = 0.0;            // mean speed along the axis
+        double self_propulsion_deviation = 0.0;  // of the rods' own speeds
+        double tumble_rate = 0.0;
+        std::optional<double> tumble_time;  // how long a tumble takes; "auto" (empty): 0.1/tumble_rate
+        double reversal_rate = 0.0;
         bool operator==(const MotionTable&) const = default;
     } motion;
 
@@ -98,11 +102,12 @@ struct Scene {
     } time;
 
     struct Output {
-        std::uint64_t series_every = 10;        // steps a row
-        std::uint64_t trajectory_every = 0;     // steps a frame; 0: none
-        std::uint64_t checkpoint_every = 1000;  // steps
-        bool contacts = false;                  // write the active contacts of every series step
-        bool stress_conventions = false;        // other conventions of the collision stress, too
+        std::uint64_t series_every = 10;          // steps a row
+        std::uint64_t trajectory_every = 0;       // steps a frame; 0: none
+        std::uint64_t checkpoint_every = 1000;    // steps
+        bool contacts = false;                    // write the active contacts of every series step
+        bool stress_conventions = false;          // other conventions of the collision stress, too
+        std::optional<double> active_stress_lag;  // time; "auto" (empty): 5 persistence times of a free rod
         bool operator==(const Output&) const = default;
     } output;
 

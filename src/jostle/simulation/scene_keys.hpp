@@ -82,6 +82,11 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("mobility", "model", scene.mobility.model, Plain{});
     visit("motion", "brownian", scene.motion.brownian, Plain{});
     visit("motion", "self_propulsion", scene.motion.self_propulsion, Quantity{dim::speed, zero_or_positive});
+    visit("motion", "self_propulsion_deviation", scene.motion.self_propulsion_deviation,
+          Quantity{dim::speed, zero_or_positive});
+    visit("motion", "tumble_rate", scene.motion.tumble_rate, Quantity{dim::rate, zero_or_positive});
+    visit("motion", "tumble_time", scene.motion.tumble_time, Quantity{dim::time, positive, true});
+    visit("motion", "reversal_rate", scene.motion.reversal_rate, Quantity{dim::rate, zero_or_positive});
     visit("growth", "rate", scene.growth.rate, Quantity{dim::speed, zero_or_positive});
     visit("growth", "rate_deviation", scene.growth.rate_deviation, Quantity{dim::none, {0.0, 0.5}});
     visit("growth", "division", scene.growth.division, Plain{});
@@ -110,6 +115,7 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("output", "checkpoint_every", scene.output.checkpoint_every, Count{1});
     visit("output", "contacts", scene.output.contacts, Plain{});
     visit("output", "stress_conventions", scene.output.stress_conventions, Plain{});
+    visit("output", "active_stress_lag", scene.output.active_stress_lag, Quantity{dim::time, positive, true});
 }
 
 /// The words of a scene for each kind of choice.

@@ -208,6 +208,7 @@ void Simulation::advance() {
     rods_.centre.swap(moved_.centre);
     rods_.axis.swap(moved_.axis);
     parallel_for(rods_.size(), [&](std::size_t i) { box_.wrap(rods_.centre[i], rods_.image[i]); });
+    for (const auto& cause : motions_) cause->between_steps(rods_, {settings_.seed, clock_.step, settings_.time_step});
     ++clock_.step;
     clock_.time = static_cast<double>(clock_.step) * settings_.time_step;
 }

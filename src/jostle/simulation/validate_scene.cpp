@@ -3,13 +3,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string_view>
 #include <type_traits>
 
 #include "jostle/error/input_error.hpp"
+#include "jostle/motion/tumbles.hpp"
 #include "jostle/rods/rods.hpp"
+#include "jostle/simulation/assemble.hpp"
 #include "jostle/simulation/scene_keys.hpp"
 
 namespace jostle {
@@ -95,6 +98,21 @@ void check_ranges(const Scene& scene) {
     });
 }
 
+struct MotionValue {
+    const char* key;
+    double given, by_default;
+};
+
+/// The keys of swimmers, which mean nothing where nothing swims.
+std::array<MotionValue, 5> motion_values(const Scene& scene) {
+    const Scene::MotionTable& motion = scene.motion;
+    return {{{"motion.self_propulsion_deviation", motion.self_propulsion_deviation, 0.0},
+             {"motion.tumble_rate", motion.tumble_rate, 0.0},
+             {"motion.tumble_time", motion.tumble_time.value_or(0.0), 0.0},
+             {"motion.reversal_rate", motion.reversal_rate, 0.0},
+             {"output.active_stress_lag", scene.output.active_stress_lag.value_or(0.0), 0.0}}};
+}
+
 /// Values given for keys that mean nothing here; the reader sees also those that equal the default.
 void check_unused(const Scene& scene) {
     const Scene defaults;
@@ -104,6 +122,8 @@ void check_unused(const Scene& scene) {
         if (unused.key == "rods.axis" && !(scene.rods.axis == defaults.rods.axis)) value = text(scene.rods.axis);
         if (unused.key == "contact.energy" && scene.contact.energy) value = text(*scene.contact.energy);
         if (unused.key == "contact.range" && scene.contact.range) value = text(*scene.contact.range);
+        for (const auto& [key, given, by_default] : motion_values(scene))
+            if (unused.key == key && given != by_default) value = text(given);
         if (unused.key == "box.shape" && !(scene.box.shape == defaults.box.shape)) value = text(scene.box.shape);
         if (!value.empty()) refuse(unused.key, value, unused.reason, "", unused.suggestion);
     }
@@ -147,6 +167,20 @@ void check_packing(const Scene& scene) {
                fmt::format("is too dense for a random start{} with rods of L/D = {}", volume, rounded(aspect_ratio)),
                fmt::format("a volume fraction of at most {}", rounded(limit)),
                "Use start = \"aligned\" or \"lattice\", or a lower volume fraction");
+}
+
+void check_motion(const Scene& scene) {
+    const double rate = scene.motion.tumble_rate;
+    if (rate == 0.0) return;
+    const double longest = Tumbles::largest_share / rate;
+    if (scene.motion.tumble_time && !(*scene.motion.tumble_time <= longest))
+        refuse("motion.tumble_time", text(*scene.motion.tumble_time),
+               fmt::format("leaves rods no time to swim between tumbles: motion.tumble_rate = {}", rate),
+               fmt::format("at most {}", rounded(longest)), "Lower tumble_time or tumble_rate");
+    if (!scene.time.step || scene.rods.start == StartKind::file) return;  // is looked at once there are rods
+    Rods one;
+    one.push_back(0, {}, {1, 0, 0}, scene.rods.length, scene.rods.diameter);
+    swimming_of(scene, one, *scene.time.step);
 }
 
 void check_mobility(const Scene& scene) {
@@ -239,6 +273,7 @@ void validate(const Scene& scene) {
         check_packing(scene);
         validate_box(scene, rods_volume(scene), scene.rods.diameter);
     }
+    check_motion(scene);
     check_mobility(scene);
     check_growth(scene);
     check_solver(scene);
@@ -315,6 +350,13 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
     if (start != StartKind::file) unused.push_back({"rods.file", with, "Set start = \"file\", or remove file"});
     if (start != StartKind::aligned && start != StartKind::lattice)
         unused.push_back({"rods.axis", with, "Set start = \"aligned\", or remove axis"});
+    if (scene.motion.self_propulsion == 0.0)
+        for (const MotionValue& value : motion_values(scene))
+            unused.push_back({value.key, "is not used with motion.self_propulsion = 0: nothing swims",
+                              "Set self_propulsion, or remove it"});
+    else if (scene.motion.tumble_rate == 0.0)
+        unused.push_back({"motion.tumble_time", "is not used with motion.tumble_rate = 0",
+                          "Set tumble_rate, or remove tumble_time"});
     const bool soft = scene.contact.model == ContactModel::wca;
     const std::string with_model = fmt::format("is not used with contact.model = \"{}\"", word_of(scene.contact.model));
     if (!soft) unused.push_back({"contact.energy", with_model, "Set model = \"wca\", or remove energy"});

@@ -26,12 +26,14 @@ public:
         draw_box(scene);
         for (bool& open : scene.box.periodic) open = chance();
         scene.fluid = {number(1e-3, 10), chance() ? number(1e-3, 10) : 0.0};
-        scene.motion = {chance(), chance() ? number(1e-5, 1e5) : 0.0};
+        draw_motion(scene);
         const bool slender = chance() && scene.rods.length / scene.rods.diameter > 0.9;
         scene.mobility.model = slender ? MobilityModel::slender_body : MobilityModel::finite_aspect_ratio;
         draw_contact(scene);
         draw_time(scene);
-        scene.output = {1 + random_() % 1000, random_() % 1000, 1 + (random_() >> 2), chance(), chance()};
+        draw_tumbles(scene);
+        scene.output = {1 + random_() % 1000, random_() % 1000, 1 + (random_() >> 2), chance(), chance(), std::nullopt};
+        if (scene.motion.self_propulsion > 0.0 && chance()) scene.output.active_stress_lag = number(1e-3, 1e3);
         return scene;
     }
 
@@ -52,6 +54,21 @@ private:
         std::string drawn;
         for (std::uint64_t k = random_() % 12; k > 0; --k) drawn += letters[random_() % std::size(letters)];
         return drawn;
+    }
+
+    void draw_motion(Scene& scene) {
+        scene.motion.brownian = chance();
+        if (chance()) return;
+        scene.motion.self_propulsion = number(1e-5, 1e5);
+        if (chance()) scene.motion.self_propulsion_deviation = number(1e-5, 1e5);
+        if (chance()) scene.motion.reversal_rate = number(1e-5, 1e5);
+    }
+
+    void draw_tumbles(Scene& scene) {
+        if (scene.motion.self_propulsion == 0.0 || chance()) return;
+        const double step = scene.time.step.value_or(1.0);
+        scene.motion.tumble_rate = number(1e-6, 1e-4) / step;
+        if (chance()) scene.motion.tumble_time = number(200, 1e4) * step;
     }
 
     void draw_contact(Scene& scene) {

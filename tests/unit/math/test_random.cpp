@@ -97,3 +97,17 @@ TEST_CASE("uniform numbers lie strictly between 0 and 1, evenly") {
     for (const int bin : bins) chi_squared += (bin - expected) * (bin - expected) / expected;
     CHECK(chi_squared < 40.0);  // nine degrees of freedom: false alarm 8e-6
 }
+
+TEST_CASE("exponential numbers are -ln u of the uniform ones") {
+    double worst = 0.0, largest = 0.0;
+    for (std::uint64_t id = 0; id < 1000; ++id) {
+        const RandomKey key{9, 1, Stream::test, id};
+        for (const double u : uniform4(key, 3)) {
+            worst = std::max(worst, std::fabs(exponential(u) + std::log(u)));
+            CHECK(exponential(u) > 0.0);
+            largest = std::max(largest, exponential(u));
+        }
+    }
+    CHECK(worst < 1e-14);
+    CHECK(largest < 22.9);
+}

@@ -78,7 +78,7 @@ TEST_CASE("no quantity may be nan, infinite or out of bounds, whichever key it i
     std::string key;
     int quantities = 0;
     while (set_quantity(counted, quantities, 1.0, key)) ++quantities;
-    CHECK(quantities == 23);
+    CHECK(quantities == 28);
     for (int index = 0; index < quantities; ++index)
         for (const double value : {not_a_number, infinity, -infinity, 1e300, -1e300}) {
             std::string changed, message;
@@ -87,6 +87,7 @@ TEST_CASE("no quantity may be nan, infinite or out of bounds, whichever key it i
                 [&](Scene& s) {
                     Scene probe = s;
                     set_quantity(probe, index, value, changed);
+                    s.motion = {true, 1.0, 0.1, 0.1, 1.0, 0.1};
                     if (changed == "rods.axis") s.rods.start = StartKind::aligned;
                     if (changed == "box.edges") s.box.volume_fraction.reset();
                     if (changed == "time.rms_step") s.time.step.reset();
@@ -136,6 +137,31 @@ TEST_CASE("keys beside keys") {
     const auto rms = [](Scene& s) { s.time = {std::nullopt, 0.03, std::nullopt, 5.0}; };
     CHECK(refused_key([&](Scene& s) { rms(s), s.fluid.kT = 0.0; }) == "time.rms_step");
     CHECK(refused_key([&](Scene& s) { rms(s), s.motion.brownian = false; }) == "time.rms_step");
+}
+
+TEST_CASE("keys of swimmers") {
+    const auto swim = [](Scene& s) { s.motion.self_propulsion = 1.0; };
+    CHECK(refused_key([&](Scene& s) { swim(s), s.motion.self_propulsion_deviation = 0.5; }) == "");
+    CHECK(refused_key([&](Scene& s) { swim(s), s.motion.tumble_rate = 2.0; }) == "");
+    CHECK(refused_key([&](Scene& s) { swim(s), s.motion.reversal_rate = 2.0; }) == "");
+    CHECK(refused_key([&](Scene& s) { swim(s), s.output.active_stress_lag = 2.0; }) == "");
+    CHECK(refused_key([&](Scene& s) { swim(s), s.motion.self_propulsion_deviation = -0.5; }) ==
+          "motion.self_propulsion_deviation");
+    CHECK(refused_key([&](Scene& s) { swim(s), s.motion.tumble_rate = -2.0; }) == "motion.tumble_rate");
+    CHECK(refused_key([&](Scene& s) { swim(s), s.motion.reversal_rate = not_a_number; }) == "motion.reversal_rate");
+    CHECK(refused_key([&](Scene& s) { swim(s), s.motion.tumble_rate = 2.0, s.motion.tumble_time = 0.0; }) ==
+          "motion.tumble_time");
+    CHECK(refused_key([&](Scene& s) { swim(s), s.motion.tumble_rate = 2.0, s.motion.tumble_time = 5.1; }) ==
+          "motion.tumble_time");
+    CHECK(refused_key([&](Scene& s) { swim(s), s.motion.tumble_rate = 2.0, s.motion.tumble_time = 0.03; }) ==
+          "motion.tumble_time");  // 31 steps: a turn of pi moves the ends of a rod L/D = 5 by up to 0.25 D a step
+    CHECK(refused_key([&](Scene& s) { swim(s), s.motion.tumble_time = 1.0; }) == "motion.tumble_time");
+    CHECK(refused_key([](Scene& s) { s.motion.self_propulsion_deviation = 0.5; }) ==
+          "motion.self_propulsion_deviation");
+    CHECK(refused_key([](Scene& s) { s.motion.tumble_rate = 2.0; }) == "motion.tumble_rate");
+    CHECK(refused_key([](Scene& s) { s.motion.tumble_time = 2.0; }) == "motion.tumble_time");
+    CHECK(refused_key([](Scene& s) { s.motion.reversal_rate = 2.0; }) == "motion.reversal_rate");
+    CHECK(refused_key([](Scene& s) { s.output.active_stress_lag = 2.0; }) == "output.active_stress_lag");
 }
 
 TEST_CASE("times") {

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "jostle/math/mat3.hpp"
+#include "jostle/rods/box.hpp"
+#include "jostle/rods/rods.hpp"
+
+namespace jostle {
+
+/// The active stress of swimmers, (1/V) <sum of x F> with x how far a rod has come since some time ago and F the force
+/// of its propulsion (theory, eq. 1.9): what Takatori, Yan and Brady (2014) call swim stress, positive in compression.
+///
+/// Over too short a time x knows too little of the path; over a long one it is mostly noise, which grows with the path.
+/// So positions are remembered anew every `lag` looks, and x counts from the last but one time: by looks that are
+/// evenly spaced, x is `lag` to 2 `lag` - 1 looks old. Positions are unwrapped: centre + image * edges.
+class ActiveStress {
+public:
+    /// lag >= 1, in looks; else InputError.
+    explicit ActiveStress(std::uint64_t lag);
+
+    /// Remembers where the rods are at the beginning.
+    void begin(const Rods& rods, const Box& box);
+
+    /// The next look. `force` (N): of the propulsion. The sum over rods of x F, first index that of x; not numbers in
+    /// the first `lag` - 1 looks. A rod that came later counts from the look that saw it first.
+    Mat3 virial(const Rods& rods, const Box& box, std::span<const Vec3> force);
+
+    /// For checkpoints.
+    std::vector<double> to_numbers() const;
+    static ActiveStress from_numbers(std::span<const double> numbers);
+
+private:
+    void remember_new(const Rods& rods, const Box& box);
+
+    std::uint64_t lag_, looks_ = 0;
+    std::vector<Vec3> newer_, older_;  ///< (largest id + 1) remembered positions; not numbers for unknown rods
+};
+
+}  // namespace jostle

@@ -1,0 +1,65 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "jostle/error/input_error.hpp"
+#include "jostle/stress/active_stress.hpp"
+
+using namespace jostle;
+
+namespace {
+
+const Box box{{10, 20, 30}, {true, true, true}};
+
+/// Two rods that move by (1, 0, 0) and (0, 2, 0) a look, through the faces of the box.
+Rods rods_at(int look) {
+    Rods rods;
+    rods.push_back(1, {9.5 + look, 5, 5}, {1, 0, 0}, 5.0, 1.0);
+    rods.push_back(0, {5, 15.0 + 2 * look, 5}, {0, 1, 0}, 5.0, 1.0);
+    for (std::size_t i = 0; i < 2; ++i) box.wrap(rods.centre[i], rods.image[i]);
+    return rods;
+}
+
+const std::vector<Vec3> force = {{3, 1, 0}, {0, 0, 4}};
+
+}  // namespace
+
+TEST_CASE("x F with unwrapped x, first index that of x, from positions of one to two lags ago") {
+    constexpr int lag = 4;
+    ActiveStress stress(lag);
+    stress.begin(rods_at(0), box);
+    for (int look = 1; look < 40; ++look) {
+        CAPTURE(look);
+        const Mat3 virial = stress.virial(rods_at(look), box, force);
+        if (look < lag) {
+            CHECK(std::isnan(virial(0, 0)));
+            continue;
+        }
+        const double age = lag + look % lag;
+        CHECK(virial(0, 0) == doctest::Approx(3.0 * age));
+        CHECK(virial(0, 1) == doctest::Approx(1.0 * age));
+        CHECK(virial(1, 2) == doctest::Approx(8.0 * age));
+        CHECK(virial(1, 0) == 0.0);
+        CHECK(virial(2, 1) == 0.0);
+        if (look % 3 == 0) stress = ActiveStress::from_numbers(stress.to_numbers());
+    }
+}
+
+TEST_CASE("a rod that comes later counts from where it was first seen; one that goes does not count") {
+    ActiveStress stress(2);
+    stress.begin(rods_at(0), box);
+    Rods three = rods_at(1);
+    three.push_back(7, {1, 1, 1}, {0, 0, 1}, 5.0, 1.0);
+    const std::vector<Vec3> forces = {{0, 0, 0}, {0, 0, 0}, {0, 0, 5}};
+    stress.virial(three, box, forces);
+    three.centre[2].z = 2.5;
+    CHECK(stress.virial(three, box, forces)(2, 2) == doctest::Approx(5.0 * 1.5));
+    CHECK(stress.virial(rods_at(3), box, force)(0, 0) == doctest::Approx(3.0 * 3.0));
+}
+
+TEST_CASE("no lag, and numbers that are not whole, are refused") {
+    CHECK_THROWS_AS(ActiveStress(0), InputError);
+    CHECK_THROWS_AS(ActiveStress::from_numbers(std::vector<double>{1.0}), InputError);
+    CHECK_THROWS_AS(ActiveStress::from_numbers(std::vector<double>{1.0, 0.0, 3.0}), InputError);
+}
