@@ -7,7 +7,7 @@ namespace jostle {
 
 namespace {
 
-constexpr double largest_sine_with_ends = 0.15;
+constexpr double largest_sine_with_ends = 0.3;
 /// The nearest point is left out between two ends if these are no farther apart than this (in D) beyond its distance.
 constexpr double negligible_sag = 5e-4;
 /// Ends nearer than this (in D) to a point that is already a contact add nothing but a nearly dependent row.

@@ -45,7 +45,7 @@ struct PairName {
 /// they lie side by side, where they are nearer than `range` beyond touching
 /// (docs/decisions/0003-two-point-contacts.md):
 ///
-///          o------------------o            sin(angle) < 0.15: ends within range are added
+///          o------------------o            sin(angle) < 0.3: ends within range are added
 ///     ============================ i       if both ends are as far away as the nearest points, to 5e-4 D,
 ///     =====================o======         they replace them (three contacts of two straight rods would
 ///          o  nearest      o               make A singular)
