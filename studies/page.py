@@ -51,8 +51,8 @@ def overview(verdicts):
     versions = sorted({version for verdict in verdicts for version in verdict["versions"]})
     processors = sorted({processor for verdict in verdicts for processor in verdict["processors"]})
     return "\n".join([
-        report.markdown({"header": ["study", "verdict", "checks passed", "runs", "rod steps", "processor time"], "rows": rows}),
-        "", f"{runs.duration(total)} of processor time in all, one thread a run, on {', '.join(processors)}; jostle "
+        report.markdown({"header": ["study", "verdict", "checks passed", "runs", "rod steps", "time"], "rows": rows}),
+        "", f"{runs.duration(total)} of runs in all, one thread each, on {', '.join(processors)}; jostle "
         f"{', '.join(versions)}.", ""])
 
 

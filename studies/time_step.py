@@ -148,7 +148,8 @@ def draw(report, every):
                  "markerfacecolor": colour if scheme == "corrected" else "none"}
         panels[0].errorbar(s.rms, 100 * s.deviation, 100 * s.deviation_error, **style,
                            label=s.label if scheme == "corrected" else None)
-        panels[1].errorbar(s.rms, 100 * numpy.abs(s.deviation), 100 * s.deviation_error, **style)
+        seen = numpy.abs(s.deviation) > 2 * s.deviation_error  # the others are zero within their errors
+        panels[1].errorbar(s.rms[seen], 100 * numpy.abs(s.deviation[seen]), 100 * s.deviation_error[seen], **style)
     panels[0].axhline(0, color="black", linewidth=0.8)
     panels[0].set_ylabel("deviation of Z, %")
     panels[0].legend(fontsize=8, title="corrected: full, plain: dashed", title_fontsize=8)
@@ -161,4 +162,4 @@ def draw(report, every):
     for panel in panels:
         panel.set_xlabel("rms step / D")
     report.figure(figure, "Deviation of Z from the reference against the rms step, in the plain scheme and with the "
-                          "correction; right, the same in logarithms with lines of order 1/2 and 1.")
+                          "correction; right, the same in logarithms where it is above two standard errors, with lines of order 1/2 and 1.")
