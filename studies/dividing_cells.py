@@ -126,8 +126,8 @@ def draw_cells(report, grown):
     """A slab of the box at the two moments, slowest and fastest; a colour for every founder's line."""
     chosen = (grown[0], grown[-1])
     figure, panels = figures.axes(2, 2, size=(9.0, 9.4))
-    for row, growth in enumerate(chosen):
-        for panel, (time, frame, *_) in zip(panels[2 * row:2 * row + 2], growth.moments):
+    for row, growth in zip(panels, chosen):
+        for panel, (time, frame, *_) in zip(row, growth.moments):
             figures.draw_slab(panel, frame["centre"], frame["axis"], frame["length"], frame["id"] % 128, EDGE, SLAB)
             panel.set_title(f"U_0 = {growth.speed:g} um/s, t D_R = {time / RELAXATION:.1f}", fontsize=9)
     report.figure(figure, f"Cells with their centres in a slab of {SLAB:g} um; one colour a founder's line.",

@@ -35,7 +35,7 @@ def write(results, names):
         for picture in verdict["figures"]:
             for ending in (".png", ".svg"):
                 file = folder / (picture["file"] + ending)
-                if file.stat().st_size < LARGEST_FILE:  # pictures of thousands of cells are no vector graphics
+                if ending == ".png" or file.stat().st_size < LARGEST_FILE:  # pictures of thousands of cells are no vector graphics
                     shutil.copy(file, FOLDER)
         shutil.copy(folder / (verdict["study"] + ".csv"), FOLDER)
     text = "\n".join([HEAD, overview(verdicts), *(section(verdict) for verdict in verdicts)])
