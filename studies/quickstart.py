@@ -13,8 +13,8 @@ from runs import Run
 
 BETA = 5
 POINTS = {  # volume fraction: steps of equilibration (a random start near the transition orders slowly) and production
-    0.05: (2000, 31000), 0.10: (2000, 26000), 0.15: (3000, 26000), 0.20: (3500, 26000), 0.25: (4500, 26000),
-    0.30: (7000, 26000), 0.35: (17000, 26000), 0.40: (35000, 43000)}
+    0.05: (2000, 62000), 0.10: (2000, 26000), 0.15: (3000, 26000), 0.20: (3500, 26000), 0.25: (4500, 26000),
+    0.30: (7000, 26000), 0.35: (17000, 52000), 0.40: (35000, 130000)}
 QUICK_POINTS = (0.10, 0.20)
 LARGEST_RELATIVE_ERROR = 0.005
 TOLERANCE = 0.01  # of Z, beside two standard errors: the time step and the size of the system
