@@ -19,10 +19,9 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// Standard errors between measured and predicted anisotropy that are still called agreement: false alarm 0.16 %, as
-/// noise of the order tensor alone chooses the director of an isotropic run.
+/// Standard errors between measured and predicted anisotropy that are still called agreement (false alarm 6e-5).
 constexpr double agreement = 4.0;
-/// Order above which a run is a nematic: stress follows order there. Isotropic phases of rods end below.
+/// Order above which a run is a nematic. Isotropic phases of rods end below.
 constexpr double nematic_above = 0.4;
 
 using Columns = std::vector<std::vector<double>>;

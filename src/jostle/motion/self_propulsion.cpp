@@ -3,10 +3,9 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <sstream>
 
-#include "jostle/error/input_error.hpp"
 #include "jostle/math/random.hpp"
+#include "jostle/motion/require_value.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
@@ -15,24 +14,16 @@ namespace {
 
 constexpr std::size_t part = 256;  ///< rods whose numbers are drawn together
 
-void require(bool good, const char* key, double value, const char* problem, const char* allowed) {
-    if (good) return;
-    std::ostringstream text;
-    text << value;
-    throw InputError(
-        {.key = key, .value = text.str(), .problem = problem, .allowed = allowed, .suggestion = {}, .place = {}});
-}
-
 }  // namespace
 
 SelfPropulsion::SelfPropulsion(const Swimming& swimming)
     : swimming_(swimming), tumbles_(swimming.tumble_rate, swimming.tumble_time) {
     const auto& [speed, deviation, tumble_rate, tumble_time, reversal_rate] = swimming_;
-    require(std::isfinite(speed), "motion.self_propulsion", speed, "is no speed", "any finite number");
-    require(std::isfinite(deviation) && deviation >= 0.0, "motion.self_propulsion_deviation", deviation,
-            "is no standard deviation", ">= 0, finite");
-    require(std::isfinite(reversal_rate) && reversal_rate >= 0.0, "motion.reversal_rate", reversal_rate, "is no rate",
-            ">= 0, finite");
+    require_value(std::isfinite(speed), "motion.self_propulsion", speed, "is no speed", "any finite number");
+    require_value(std::isfinite(deviation) && deviation >= 0.0, "motion.self_propulsion_deviation", deviation,
+                  "is no standard deviation", ">= 0, finite");
+    require_value(std::isfinite(reversal_rate) && reversal_rate >= 0.0, "motion.reversal_rate", reversal_rate,
+                  "is no rate", ">= 0, finite");
 }
 
 void SelfPropulsion::add_to(Velocities& known, const Rods& rods, const StepContext& context) const {

@@ -2,22 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
-#include "jostle/error/input_error.hpp"
 #include "jostle/math/random.hpp"
+#include "jostle/motion/require_value.hpp"
 
 namespace jostle {
 
 namespace {
-
-void require(bool good, const char* key, double value, const char* problem, const char* allowed) {
-    if (good) return;
-    std::ostringstream text;
-    text << value;
-    throw InputError(
-        {.key = key, .value = text.str(), .problem = problem, .allowed = allowed, .suggestion = {}, .place = {}});
-}
 
 struct Quaternion {
     double real;
@@ -65,10 +56,11 @@ void for_each_event(const RandomKey& key, double events_per_step, std::uint64_t 
 }  // namespace
 
 Tumbles::Tumbles(double rate, double duration) : rate_(rate), duration_(duration) {
-    require(std::isfinite(rate) && rate >= 0.0, "motion.tumble_rate", rate, "is no rate", ">= 0, finite");
-    require(std::isfinite(duration) && duration >= 0.0, "motion.tumble_time", duration, "is no time", ">= 0, finite");
-    require(rate * duration <= largest_share, "motion.tumble_time", duration,
-            "leaves rods no time to swim between tumbles", "at most 10/tumble_rate");
+    require_value(std::isfinite(rate) && rate >= 0.0, "motion.tumble_rate", rate, "is no rate", ">= 0, finite");
+    require_value(std::isfinite(duration) && duration >= 0.0, "motion.tumble_time", duration, "is no time",
+                  ">= 0, finite");
+    require_value(rate * duration <= largest_share, "motion.tumble_time", duration,
+                  "leaves rods no time to swim between tumbles", "at most 10/tumble_rate");
 }
 
 std::uint64_t Tumbles::steps(double time_step) const {

@@ -100,17 +100,17 @@ void check_ranges(const Scene& scene) {
 
 struct MotionValue {
     const char* key;
-    double given, by_default;
+    double given;  ///< 0 by default
 };
 
 /// The keys of swimmers, which mean nothing where nothing swims.
 std::array<MotionValue, 5> motion_values(const Scene& scene) {
     const Scene::MotionTable& motion = scene.motion;
-    return {{{"motion.self_propulsion_deviation", motion.self_propulsion_deviation, 0.0},
-             {"motion.tumble_rate", motion.tumble_rate, 0.0},
-             {"motion.tumble_time", motion.tumble_time.value_or(0.0), 0.0},
-             {"motion.reversal_rate", motion.reversal_rate, 0.0},
-             {"output.active_stress_lag", scene.output.active_stress_lag.value_or(0.0), 0.0}}};
+    return {{{"motion.self_propulsion_deviation", motion.self_propulsion_deviation},
+             {"motion.tumble_rate", motion.tumble_rate},
+             {"motion.tumble_time", motion.tumble_time.value_or(0.0)},
+             {"motion.reversal_rate", motion.reversal_rate},
+             {"output.active_stress_lag", scene.output.active_stress_lag.value_or(0.0)}}};
 }
 
 /// Values given for keys that mean nothing here; the reader sees also those that equal the default.
@@ -122,8 +122,8 @@ void check_unused(const Scene& scene) {
         if (unused.key == "rods.axis" && !(scene.rods.axis == defaults.rods.axis)) value = text(scene.rods.axis);
         if (unused.key == "contact.energy" && scene.contact.energy) value = text(*scene.contact.energy);
         if (unused.key == "contact.range" && scene.contact.range) value = text(*scene.contact.range);
-        for (const auto& [key, given, by_default] : motion_values(scene))
-            if (unused.key == key && given != by_default) value = text(given);
+        for (const auto& [key, given] : motion_values(scene))
+            if (unused.key == key && given != 0.0) value = text(given);
         if (unused.key == "box.shape" && !(scene.box.shape == defaults.box.shape)) value = text(scene.box.shape);
         if (!value.empty()) refuse(unused.key, value, unused.reason, "", unused.suggestion);
     }
