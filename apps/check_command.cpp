@@ -48,8 +48,8 @@ std::string with_unit(double value, UnitSystem units, Dimension dimension) {
     return fmt::format("{:.6g} {}", value, unit_of(units, dimension));
 }
 
-void print_swimming(const Scene& scene, const Swimming& swimming, const Mobility& mobility, const Rods& rods,
-                    double dt) {
+void print_swimming(const Scene& scene, const Mobility& mobility, const Rods& rods, double dt) {
+    const Swimming swimming = swimming_of(scene);
     const UnitSystem units = scene.units.system;
     const double persistence = persistence_time(scene, mobility, rods.size());
     print("persistence time, free",
@@ -129,7 +129,7 @@ ExitCode check_command(const std::string& scene_path) {
     const double phi = population.volume / box.volume();
     const auto mobility = make_mobility(scene, population.rods);
     const double dt = time_step(scene, *mobility, population.rods);
-    const Swimming swimming = swimming_in_file(scene, scene_path, population.rods);
+    require_slow_tumbles_in_file(scene, scene_path, population.rods);
     const UnitSystem units = scene.units.system;
 
     std::printf("%s\n# what follows from it\n", to_toml(scene).c_str());
@@ -141,7 +141,7 @@ ExitCode check_command(const std::string& scene_path) {
                              unit_of(units, dimension::length)));
     print("time step", with_unit(dt, units, dimension::time));
     print_motion(scene, *mobility, population.rods, dt);
-    if (scene.motion.self_propulsion != 0.0) print_swimming(scene, swimming, *mobility, population.rods, dt);
+    if (scene.motion.self_propulsion != 0.0) print_swimming(scene, *mobility, population.rods, dt);
     print_cost(scene, population, phi, dt);
     return ExitCode::done;
 }

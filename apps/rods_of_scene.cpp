@@ -30,9 +30,9 @@ Box box_of(const Scene& scene, const std::optional<Rods>& rods) {
     return {box_edges(scene, volume), scene.box.periodic};
 }
 
-Swimming swimming_in_file(const Scene& scene, const std::filesystem::path& scene_path, const Rods& rods) {
+void require_slow_tumbles_in_file(const Scene& scene, const std::filesystem::path& scene_path, const Rods& rods) {
     try {
-        return swimming_of(scene, rods, time_step(scene, *make_mobility(scene, rods), rods));
+        require_slow_tumbles(scene, rods, time_step(scene, *make_mobility(scene, rods), rods));
     } catch (const InputError& error) {
         throw error.with_place({scene_path.string()});
     }
@@ -43,7 +43,7 @@ Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_pa
         const auto from_file = rods_from_file(scene, scene_path);
         const Box box = box_of(scene, from_file);
         Beginning beginning = {box, make_start(scene, box, from_file)};
-        swimming_in_file(scene, scene_path, beginning.rods);
+        require_slow_tumbles_in_file(scene, scene_path, beginning.rods);
         return beginning;
     } catch (const InputError& error) {
         if (!error.parts().place.file.empty()) throw;

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <optional>
 
-#include "jostle/motion/self_propulsion.hpp"
 #include "jostle/rods/box.hpp"
 #include "jostle/simulation/scene.hpp"
 
@@ -19,8 +18,8 @@ std::optional<jostle::Rods> rods_from_file(const jostle::Scene& scene, const std
 /// The box of a scene, for these rods or, if there are none, for those that the scene describes.
 jostle::Box box_of(const jostle::Scene& scene, const std::optional<jostle::Rods>& rods);
 
-/// How rods swim. Errors: InputError, with the scene's name, where tumbles are too fast for the time step.
-jostle::Swimming swimming_in_file(const jostle::Scene& scene, const std::filesystem::path& scene_path,
+/// Throws InputError, with the scene's name, where tumbles are too fast for the time step.
+void require_slow_tumbles_in_file(const jostle::Scene& scene, const std::filesystem::path& scene_path,
                                   const jostle::Rods& rods);
 
 /// Makes the start of a scene. Errors: InputError where the rods do not fit.

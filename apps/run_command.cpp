@@ -133,7 +133,7 @@ private:
         const Rods& rods = simulation_.rods();
         const StepContext context = {scene_.seed, simulation_.clock().step, simulation_.settings().time_step};
         const std::vector<Vec3> force =
-            SelfPropulsion(swimming_of(scene_, rods, context.time_step)).forces(rods, simulation_.mobility(), context);
+            SelfPropulsion(swimming_of(scene_)).forces(rods, simulation_.mobility(), context);
         sums_.active_virial = sums_.active_stress->virial(rods, simulation_.box(), force);
     }
 

@@ -1,7 +1,9 @@
 #include "jostle/mobility/drag_mobility.hpp"
 
+#include <atomic>
 #include <cassert>
 #include <cmath>
+#include <exception>
 #include <utility>
 
 #include "jostle/parallel/parallel_for.hpp"
@@ -22,18 +24,25 @@ void apply_to_rod(const RodMobility& mobility, const Vec3& axis, const Vec3& for
 DragMobility::DragMobility(DragLaw law) : law_(std::move(law)) {}
 
 void DragMobility::update(const Rods& rods) {
-    // Equal neighbours are common (all rods alike, synchronous growth): they share one kind. No threads: laws may
-    // throw.
-    std::vector<std::uint32_t> kind(rods.size());
-    std::vector<Kind> kinds;
+    // Equal neighbours are common (all rods alike, synchronous growth): they share one kind.
+    std::vector<std::uint32_t> kind(rods.size()), first;
     for (std::size_t i = 0; i < rods.size(); ++i) {
         const bool same = i > 0 && rods.length[i] == rods.length[i - 1] && rods.diameter[i] == rods.diameter[i - 1];
-        if (!same) {
-            const RodMobility own = law_(rods.length[i], rods.diameter[i]);
-            kinds.push_back({own, {std::sqrt(own.parallel), std::sqrt(own.perpendicular), std::sqrt(own.rotational)}});
-        }
-        kind[i] = static_cast<std::uint32_t>(kinds.size() - 1);
+        if (!same) first.push_back(static_cast<std::uint32_t>(i));
+        kind[i] = static_cast<std::uint32_t>(first.size() - 1);
     }
+    std::vector<Kind> kinds(first.size());
+    std::atomic<bool> refused = false;  // laws may throw, which must not leave a thread
+    const auto ask = [&](std::size_t k) { return law_(rods.length[first[k]], rods.diameter[first[k]]); };
+    parallel_for(kinds.size(), [&](std::size_t k) {
+        try {
+            const RodMobility own = ask(k);
+            kinds[k] = {own, {std::sqrt(own.parallel), std::sqrt(own.perpendicular), std::sqrt(own.rotational)}};
+        } catch (const std::exception&) {
+            refused = true;
+        }
+    });
+    for (std::size_t k = 0; refused && k < kinds.size(); ++k) ask(k);
     kind_.swap(kind);
     kinds_.swap(kinds);
 }

@@ -17,7 +17,8 @@ using DragLaw = std::function<RodMobility(double length, double diameter)>;
 /// the three coefficients in their places. Spin about the axis n is left out: torque along n gives nothing.
 class DragMobility final : public Mobility {
 public:
-    /// `law` is asked once for every rod, at each `update`, in rows' order; what it throws passes through `update`.
+    /// `law`, which depends on nothing but its arguments, is asked at each `update`, by several threads; what it throws
+    /// passes through `update`, for the first rod of which it does.
     explicit DragMobility(DragLaw law);
 
     void update(const Rods& rods) override;

@@ -73,23 +73,31 @@ double time_step(const Scene& scene, const Mobility& mobility, const Rods& rods)
     return step;
 }
 
-Swimming swimming_of(const Scene& scene, const Rods& rods, double time_step) {
+Swimming swimming_of(const Scene& scene) {
     const Scene::MotionTable& motion = scene.motion;
     Swimming swimming = {motion.self_propulsion, motion.self_propulsion_deviation, motion.tumble_rate, 0.0,
                          motion.reversal_rate};
-    if (motion.tumble_rate == 0.0) return swimming;
-    swimming.tumble_time = motion.tumble_time.value_or(automatic_tumble_share / motion.tumble_rate);
-    if (motion.tumble_rate * time_step > 1.0)
-        refuse_tumbles("motion.tumble_rate", motion.tumble_rate, "is more than one tumble in a time step",
+    if (motion.tumble_rate > 0.0)
+        swimming.tumble_time = motion.tumble_time.value_or(automatic_tumble_share / motion.tumble_rate);
+    return swimming;
+}
+
+void require_slow_tumbles(const Scene& scene, const Rods& rods, double time_step) {
+    const Swimming swimming = swimming_of(scene);
+    if (swimming.tumble_rate == 0.0) return;
+    if (swimming.tumble_rate * time_step > 1.0)
+        refuse_tumbles("motion.tumble_rate", swimming.tumble_rate, "is more than one tumble in a time step",
                        fmt::format("at most {:.4g}", 1.0 / time_step));
+    const double grown = scene.growth.rate > 0.0 ? scene.growth.division_length : 0.0;
+    const auto steps = static_cast<double>(Tumbles(swimming.tumble_rate, swimming.tumble_time).steps(time_step));
     for (std::size_t i = 0; i < rods.size(); ++i) {
-        const double fewest = std::numbers::pi * 0.5 * rods.length[i] / (farthest_turn * rods.diameter[i]);
-        if (static_cast<double>(Tumbles(motion.tumble_rate, swimming.tumble_time).steps(time_step)) < fewest)
+        const double longest = std::max(rods.length[i], grown);
+        const double fewest = std::numbers::pi * 0.5 * longest / (farthest_turn * rods.diameter[i]);
+        if (steps < fewest)
             refuse_tumbles("motion.tumble_time", swimming.tumble_time,
                            "is too short: the ends of a rod would pass through others in a single step",
                            fmt::format("at least {:.4g}", std::ceil(fewest) * time_step));
     }
-    return swimming;
 }
 
 double persistence_time(const Scene& scene, const Mobility& mobility, std::size_t rod_count) {
@@ -146,8 +154,7 @@ Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock) 
     if (scene.growth.rate > 0.0) set_growth(scene, settings);
     std::vector<std::unique_ptr<Motion>> motions;
     if (settings.kT > 0.0) motions.push_back(std::make_unique<BrownianMotion>(settings.kT, *mobility));
-    if (scene.motion.self_propulsion != 0.0)
-        motions.push_back(std::make_unique<SelfPropulsion>(swimming_of(scene, rods, settings.time_step)));
+    if (scene.motion.self_propulsion != 0.0) motions.push_back(std::make_unique<SelfPropulsion>(swimming_of(scene)));
     return Simulation(box, std::move(rods), clock, std::move(mobility), std::move(motions), settings);
 }
 

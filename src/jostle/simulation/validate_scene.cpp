@@ -180,7 +180,7 @@ void check_motion(const Scene& scene) {
     if (!scene.time.step || scene.rods.start == StartKind::file) return;  // is looked at once there are rods
     Rods one;
     one.push_back(0, {}, {1, 0, 0}, scene.rods.length, scene.rods.diameter);
-    swimming_of(scene, one, *scene.time.step);
+    require_slow_tumbles(scene, one, *scene.time.step);
 }
 
 void check_mobility(const Scene& scene) {

@@ -30,7 +30,8 @@ Scene crowd() {
 
 std::string refused_key(const Scene& scene) {
     try {
-        assemble(scene, box, make_start(crowd(), box), {});
+        const Rods rods = make_start(crowd(), box);
+        require_slow_tumbles(scene, rods, time_step(scene, *make_mobility(scene, rods), rods));
     } catch (const InputError& error) {
         CHECK(!error.parts().allowed.empty());
         return error.parts().key;
@@ -93,7 +94,7 @@ TEST_CASE("a simulation made anew in every step makes the same step: axes that f
         CHECK(whole.rods().axis == anew.rods().axis);
         contacts += a.active_contacts;
         Rods turned = whole.rods();
-        SelfPropulsion(swimming_of(scene, turned, 0.005)).between_steps(turned, {3, whole.clock().step - 1, 0.005});
+        SelfPropulsion(swimming_of(scene)).between_steps(turned, {3, whole.clock().step - 1, 0.005});
         for (std::size_t i = 0; i < turned.size(); ++i) flips += turned.axis[i] == whole.rods().axis[i] ? 0 : 1;
     }
     CHECK(flips > 400);
@@ -110,6 +111,15 @@ TEST_CASE("tumbles too fast for the time step are refused by key") {
     scene.motion.tumble_time = 0.01;
     scene.motion.tumble_rate = 201.0;
     CHECK(refused_key(scene) == "motion.tumble_rate");
+}
+
+TEST_CASE("tumbles of growing cells are judged at the length that these reach") {
+    Scene scene = crowd();
+    scene.growth.rate = 0.01;
+    scene.growth.division_length = 6.0;  // forty steps: the ends move by up to 0.236 D
+    CHECK(refused_key(scene) == "");
+    scene.growth.division_length = 7.0;  // 0.275 D
+    CHECK(refused_key(scene) == "motion.tumble_time");
 }
 
 TEST_CASE("persistence time and lag of the active stress") {
