@@ -11,6 +11,7 @@
 #include "jostle/io/scene_writer.hpp"
 #include "jostle/io/units.hpp"
 #include "jostle/simulation/assemble.hpp"
+#include "jostle/simulation/rod_size.hpp"
 #include "jostle/simulation/validate_scene.hpp"
 #include "rods_of_scene.hpp"
 
@@ -18,7 +19,7 @@ using namespace jostle;
 
 namespace {
 
-/// The rods that derived numbers are about: those of the file, or one that stands for all (they are alike).
+/// The rods that derived numbers are about: those of the file, or some that stand for all.
 struct Population {
     Rods rods;
     double count = 0.0;
@@ -27,9 +28,12 @@ struct Population {
 
 Population population_of(const Scene& scene, const std::optional<Rods>& from_file) {
     if (from_file) return {*from_file, static_cast<double>(from_file->size()), total_volume(*from_file)};
-    Rods one;
-    one.push_back(0, {}, {1, 0, 0}, scene.rods.length, scene.rods.diameter);
-    return {one, static_cast<double>(scene.rods.count), rods_volume(scene)};
+    Rods rods;
+    for (std::uint64_t id = 0; id < (rods_are_alike(scene) ? 1 : scene.rods.count); ++id) {
+        const RodSize size = rod_size(scene, id);
+        rods.push_back(id, {}, {1, 0, 0}, size.length, size.diameter);
+    }
+    return {rods, static_cast<double>(scene.rods.count), rods_volume(scene)};
 }
 
 /// Rough costs, from docs/performance.md: a step of one rod takes longer where there are more contacts.
@@ -46,6 +50,17 @@ void print(const char* name, const std::string& value) {
 
 std::string with_unit(double value, UnitSystem units, Dimension dimension) {
     return fmt::format("{:.6g} {}", value, unit_of(units, dimension));
+}
+
+/// L/D, or the range of it.
+std::string aspect_ratios(const Rods& rods) {
+    const auto ratio = [&](std::size_t i) { return rods.length[i] / rods.diameter[i]; };
+    double least = ratio(0), largest = least;
+    for (std::size_t i = 1; i < rods.size(); ++i) {
+        least = std::min(least, ratio(i));
+        largest = std::max(largest, ratio(i));
+    }
+    return least == largest ? fmt::format("{:.6g}", least) : fmt::format("{:.6g} to {:.6g}", least, largest);
 }
 
 void print_swimming(const Scene& scene, const Mobility& mobility, const Rods& rods, double dt) {
@@ -135,7 +150,7 @@ ExitCode check_command(const std::string& scene_path) {
     std::printf("%s\n# what follows from it\n", to_toml(scene).c_str());
     print("units", units == UnitSystem::micro ? "um, s, pN (stress in pN um-2 = Pa)" : "D, kT, viscosity");
     print("N", fmt::format("{:.0f}", population.count));
-    print("L/D", fmt::format("{:.6g}", population.rods.length[0] / population.rods.diameter[0]));
+    print("L/D", aspect_ratios(population.rods));
     print("phi", fmt::format("{:.6g}", phi));
     print("box", fmt::format("{:.6g} x {:.6g} x {:.6g} {}", box.edges.x, box.edges.y, box.edges.z,
                              unit_of(units, dimension::length)));

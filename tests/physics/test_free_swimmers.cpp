@@ -165,7 +165,7 @@ TEST_CASE("diffusion and active stress of free swimmers") {
         MESSAGE(kind.name);
         const Box box{box_edges(scene), {true, true, true}};
         Simulation simulation = assemble(scene, box, make_start(scene, box), {});
-        const SelfPropulsion propulsion(swimming_of(scene, simulation.rods(), swimmers.dt()));
+        const SelfPropulsion propulsion(swimming_of(scene));
         for (int step = 0; step < settling; ++step) REQUIRE(simulation.step().status == LcpStatus::converged);
         const std::vector<Vec3> begin = unwrapped_by_id(simulation);
         Groups groups;

@@ -72,7 +72,7 @@ void read_keys(const TomlDocument& document, Scene& scene) {
         if (const toml::node* node = document.find(table, name))
             KeyReader(document, scene.units.system, full_key(table, name)).read(*node, member, spec);
     });
-    const bool brownian_step = scene.motion.brownian && scene.fluid.kT > 0.0;
+    const bool brownian_step = scene.motion.brownian && scene.fluid.kT > 0.0 && scene.growth.rate == 0.0;
     if (!scene.time.step && !scene.time.rms_step && brownian_step) scene.time.rms_step = default_rms_step;
 }
 

@@ -13,6 +13,7 @@ enum class Stream : std::uint32_t {
     test = 3,
     growth = 4,
     death = 5,
+    rod_size = 6,
     swimming_speed = 8,
     reversal = 9,
     tumble_time = 10,

@@ -43,9 +43,11 @@ struct Scene {
     } box;
 
     struct RodsTable {
-        std::uint64_t count = 0;  // with start = "file": 0, as many as the file holds
-        double length = 0.0;      // of the cylinder part
-        double diameter = 1.0;
+        std::uint64_t count = 0;          // with start = "file": 0, as many as the file holds
+        double length = 0.0;              // of the cylinder part; mean over rods
+        double diameter = 1.0;            // mean over rods
+        double length_deviation = 0.0;    // standard deviations of the rods' own lengths ...
+        double diameter_deviation = 0.0;  // ... and diameters
         StartKind start = StartKind::random;
         Vec3 axis{1, 0, 0};  // direction of aligned and lattice starts
         std::string file;    // for start = "file"; relative to the scene's folder

@@ -74,6 +74,8 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("rods", "count", scene.rods.count, Count{1, (std::uint64_t{1} << 31) - 1});
     visit("rods", "length", scene.rods.length, Quantity{dim::length, zero_or_positive});
     visit("rods", "diameter", scene.rods.diameter, Quantity{dim::length, positive});
+    visit("rods", "length_deviation", scene.rods.length_deviation, Quantity{dim::length, zero_or_positive});
+    visit("rods", "diameter_deviation", scene.rods.diameter_deviation, Quantity{dim::length, zero_or_positive});
     visit("rods", "start", scene.rods.start, Plain{});
     visit("rods", "axis", scene.rods.axis, Quantity{dim::none, {-Range::largest, Range::largest}});
     visit("rods", "file", scene.rods.file, Plain{});

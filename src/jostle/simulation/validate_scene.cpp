@@ -11,8 +11,10 @@
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/motion/tumbles.hpp"
+#include "jostle/parallel/parallel_for.hpp"
 #include "jostle/rods/rods.hpp"
 #include "jostle/simulation/assemble.hpp"
+#include "jostle/simulation/rod_size.hpp"
 #include "jostle/simulation/scene_keys.hpp"
 
 namespace jostle {
@@ -21,6 +23,8 @@ namespace {
 
 /// b = 2 ln(2 L/D) - 1 > 0, theory, eq. 2.10: below, the drag of a slender body across and along the axis is negative.
 const double slender_limit = std::exp(0.5) / 2.0;
+/// Of the standard deviation of lengths and diameters to their mean: the smallest is a quarter of it.
+constexpr double largest_deviation = 0.25;
 constexpr double largest_step_number = 1e15;  // counts of steps stay exact as double
 
 [[noreturn]] void refuse(std::string key, std::string value, std::string problem, std::string allowed,
@@ -120,6 +124,10 @@ void check_unused(const Scene& scene) {
         std::string value;
         if (unused.key == "rods.file") value = scene.rods.file;
         if (unused.key == "rods.axis" && !(scene.rods.axis == defaults.rods.axis)) value = text(scene.rods.axis);
+        if (unused.key == "rods.length_deviation" && scene.rods.length_deviation != 0.0)
+            value = text(scene.rods.length_deviation);
+        if (unused.key == "rods.diameter_deviation" && scene.rods.diameter_deviation != 0.0)
+            value = text(scene.rods.diameter_deviation);
         if (unused.key == "contact.energy" && scene.contact.energy) value = text(*scene.contact.energy);
         if (unused.key == "contact.range" && scene.contact.range) value = text(*scene.contact.range);
         for (const auto& [key, given] : motion_values(scene))
@@ -135,6 +143,22 @@ void check_start(const Scene& scene) {
                "Add file = \"rods.csv\" under [rods]");
     if (norm(scene.rods.axis) == 0.0)
         refuse("rods.axis", text(scene.rods.axis), "has no direction", "a vector that is not zero", "Use [1, 0, 0]");
+}
+
+/// Deviations that leave every rod a length and a diameter, and that the start can place.
+void check_deviations(const Scene& scene) {
+    const Scene::RodsTable& rods = scene.rods;
+    const auto check = [&](const char* key, double deviation, double mean) {
+        if (deviation == 0.0) return;
+        if (rods.start == StartKind::lattice)
+            refuse(key, text(deviation), "is given with start = \"lattice\", which places rods that are alike", "0",
+                   "Use start = \"aligned\" or \"random\"");
+        if (!(deviation <= largest_deviation * mean))
+            refuse(key, text(deviation), fmt::format("is large against the mean, {}", mean),
+                   fmt::format("at most {}, a quarter of the mean", rounded(largest_deviation * mean)), "");
+    };
+    check("rods.length_deviation", rods.length_deviation, rods.length);
+    check("rods.diameter_deviation", rods.diameter_deviation, rods.diameter);
 }
 
 void check_box_given_once(const Scene& scene) {
@@ -184,7 +208,8 @@ void check_motion(const Scene& scene) {
 }
 
 void check_mobility(const Scene& scene) {
-    const double aspect_ratio = scene.rods.length / scene.rods.diameter;
+    const double aspect_ratio = (scene.rods.length - farthest_deviation * scene.rods.length_deviation) /
+                                (scene.rods.diameter + farthest_deviation * scene.rods.diameter_deviation);
     if (scene.mobility.model == MobilityModel::slender_body && !(aspect_ratio > slender_limit))
         refuse("mobility.model", "\"slender_body\"",
                fmt::format("gives rods of L/D = {} a negative drag: it holds for slender rods only",
@@ -237,6 +262,10 @@ void check_rms_step(const Scene& scene) {
         refuse("time.rms_step", text(*scene.time.rms_step),
                fmt::format("measures the step by the Brownian motion, and there is none: {}", reason), "",
                "Give time.step instead");
+    if (scene.growth.rate > 0.0)
+        refuse("time.rms_step", text(*scene.time.rms_step),
+               "measures the step by the Brownian motion of rods, which changes as they grow", "",
+               "Give time.step instead");
 }
 
 void check_time(const Scene& scene) {
@@ -270,8 +299,10 @@ void validate(const Scene& scene) {
     check_start(scene);
     check_box_given_once(scene);
     if (scene.rods.start != StartKind::file) {
+        check_deviations(scene);
         check_packing(scene);
-        validate_box(scene, rods_volume(scene), scene.rods.diameter);
+        validate_box(scene, rods_volume(scene),
+                     scene.rods.diameter + farthest_deviation * scene.rods.diameter_deviation);
     }
     check_motion(scene);
     check_mobility(scene);
@@ -310,7 +341,12 @@ void validate_box(const Scene& scene, double rods_volume, double largest_diamete
 }
 
 double rods_volume(const Scene& scene) {
-    return static_cast<double>(scene.rods.count) * rod_volume(scene.rods.length, scene.rods.diameter);
+    if (rods_are_alike(scene))
+        return static_cast<double>(scene.rods.count) * rod_volume(scene.rods.length, scene.rods.diameter);
+    return parallel_sum<double>(scene.rods.count, [&](std::size_t id) {
+        const RodSize size = rod_size(scene, id);
+        return rod_volume(size.length, size.diameter);
+    });
 }
 
 Vec3 box_edges(const Scene& scene, double rods_volume) {
@@ -347,6 +383,10 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
     const std::string with = fmt::format("is not used with rods.start = \"{}\"", word_of(start));
     if (scene.box.edges)
         unused.push_back({"box.shape", "is not used with box.edges, which give the shape", "Remove shape or edges"});
+    if (start == StartKind::file)
+        for (const char* key : {"rods.length_deviation", "rods.diameter_deviation"})
+            unused.push_back(
+                {key, with + ": the file tells", "Give the file columns length and diameter, or remove it"});
     if (start != StartKind::file) unused.push_back({"rods.file", with, "Set start = \"file\", or remove file"});
     if (start != StartKind::aligned && start != StartKind::lattice)
         unused.push_back({"rods.axis", with, "Set start = \"aligned\", or remove axis"});

@@ -32,7 +32,7 @@ void require_short_growth(const Scene& scene, double time_step);
 /// Throws InputError if an edge is shorter than the diameter or the volume fraction is not below 1.
 void validate_box(const Scene& scene, double rods_volume, double largest_diameter);
 
-/// Volume of all rods, count * pi (L D^2/4 + D^3/6); for scenes that name the count.
+/// Volume of all rods as they start, the sum of pi (L D^2/4 + D^3/6); for scenes that name the count.
 double rods_volume(const Scene& scene);
 
 /// Edges of the box for rods of `rods_volume` in all: as given, or from volume fraction and shape.

@@ -27,7 +27,7 @@ public:
         for (bool& open : scene.box.periodic) open = chance();
         scene.fluid = {number(1e-3, 10), chance() ? number(1e-3, 10) : 0.0};
         draw_motion(scene);
-        const bool slender = chance() && scene.rods.length / scene.rods.diameter > 0.9;
+        const bool slender = chance() && scene.rods.length / scene.rods.diameter > 6.0;  // the least of all: 1/7
         scene.mobility.model = slender ? MobilityModel::slender_body : MobilityModel::finite_aspect_ratio;
         draw_contact(scene);
         draw_time(scene);
@@ -92,6 +92,11 @@ private:
         if (scene.rods.start == StartKind::file) {
             scene.rods.file = "folder/" + text();
             if (chance()) scene.rods.count = 0;
+        }
+        if ((scene.rods.start == StartKind::random || scene.rods.start == StartKind::aligned) && chance()) {
+            scene.rods.count = 1000 + random_() % 1000;
+            scene.rods.diameter_deviation = number(1e-3, 0.25) * scene.rods.diameter;
+            scene.rods.length_deviation = number(1e-3, 0.25) * scene.rods.length;
         }
         if (scene.rods.start == StartKind::aligned || scene.rods.start == StartKind::lattice)
             scene.rods.axis = {number(1e-3, 1), -number(1e-3, 1), number(1e-3, 1)};
