@@ -50,7 +50,10 @@ Vec3 squares(const Vec3& a) {
 }  // namespace
 
 BodyMoments sphere_moments(double diameter) {
-    return spherocylinder_moments({0, 0, 1}, 0.0, diameter);
+    if (!(std::isfinite(diameter) && diameter > 0.0))
+        refuse("diameter", fmt::format("{}", diameter), "no sphere has such a diameter", "finite, > 0");
+    const double mass = pi / 6.0 * diameter * diameter * diameter;
+    return {mass, {}, (mass * diameter * diameter / 20.0) * identity()};
 }
 
 BodyMoments spherocylinder_moments(const Vec3& axis, double length, double diameter) {
