@@ -224,6 +224,7 @@ private:
         attributes.length_unit = unit_of(units, dimension::length);
         attributes.time_unit = unit_of(units, dimension::time);
         attributes.stress_unit = unit_of(units, dimension::stress);
+        attributes.energy_unit = unit_of(units, dimension::energy);
         write_h5md(directory_.file("trajectory.journal"), directory_.file("trajectory.h5"), attributes,
                    &files_.series());
     }

@@ -1,9 +1,12 @@
 #include "run_files.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "jostle/io/units.hpp"
 #include "jostle/rods/space_filling_order.hpp"
+#include "jostle/stress/stress_per_rod.hpp"
 #include "series_columns.hpp"
 
 using namespace jostle;
@@ -73,6 +76,19 @@ SeriesFile resumed_series(const RunDirectory& directory, const Scene& scene, con
                               checkpoint.series_hash);
 }
 
+/// The stress of every rod (N) in the last step; not a number for a rod that was not in it.
+std::vector<Mat3> stress_of_last_step(const Simulation& simulation, const std::vector<std::uint64_t>& ids) {
+    const Mat3 unknown = std::numeric_limits<double>::quiet_NaN() * Mat3{{1, 1, 1, 1, 1, 1, 1, 1, 1}};
+    if (simulation.clock().step == 0) return std::vector<Mat3>(ids.size(), unknown);
+    std::vector<Mat3> stress = stress_per_rod(simulation.collision_moments(), ids);
+    for (const LineageEvent& event : simulation.lineage()) {
+        const auto found = std::lower_bound(ids.begin(), ids.end(), event.id);
+        if (event.kind == LineageEvent::Kind::birth && found != ids.end() && *found == event.id)
+            stress[static_cast<std::size_t>(found - ids.begin())] = unknown;
+    }
+    return stress;
+}
+
 }  // namespace
 
 RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::string resolved_scene,
@@ -85,7 +101,10 @@ RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::strin
                std::vector<std::vector<double>>(series_file_.columns().size())};
     write_series_description(directory.file("series.json"), series_file_.columns());
     if (scene.output.trajectory_every > 0) {
-        journal_ = TrajectoryJournal::create(directory.file("trajectory.journal"));
+        const bool stress = scene.output.stress_per_rod;
+        journal_ = TrajectoryJournal::create(
+            directory.file("trajectory.journal"),
+            stress ? TrajectoryJournal::Content::rods_and_stress : TrajectoryJournal::Content::rods);
         append_frame(simulation);
     }
     const auto tables = side_tables(scene);
@@ -119,9 +138,10 @@ void RunFiles::append_row(const std::vector<double>& row) {
 }
 
 void RunFiles::append_frame(const Simulation& simulation) {
-    const Rods& rods = simulation.rods();
-    journal_->append(simulation.clock().step, simulation.clock().time, simulation.box(),
-                     reordered(rods, id_order(rods)));
+    const Rods rods = reordered(simulation.rods(), id_order(simulation.rods()));
+    std::vector<Mat3> stress;
+    if (scene_.output.stress_per_rod) stress = stress_of_last_step(simulation, rods.id);
+    journal_->append(simulation.clock().step, simulation.clock().time, simulation.box(), rods, stress);
 }
 
 void RunFiles::append_contacts(const Simulation& simulation) {

@@ -135,6 +135,7 @@ Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock) 
         settings.range = (wca_range - 1.0) * *std::max_element(rods.diameter.begin(), rods.diameter.end());
     }
     settings.stress_conventions = scene.output.stress_conventions;
+    settings.collision_moments = scene.output.stress_per_rod;
     settings.method = scene.solver.method;
     const bool paper = scene.solver.residual == ResidualKind::paper;
     settings.lcp.residual = paper ? LcpResidual::paper : LcpResidual::length;

@@ -107,6 +107,7 @@ struct Scene {
         std::uint64_t checkpoint_every = 1000;    // steps
         bool contacts = false;                    // write the active contacts of every series step
         bool stress_conventions = false;          // other conventions of the collision stress, too
+        bool stress_per_rod = false;              // write the stress of every rod with every frame
         std::optional<double> active_stress_lag;  // time; "auto" (empty): 5 persistence times of a free rod
         bool operator==(const Output&) const = default;
     } output;

@@ -115,6 +115,7 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("output", "checkpoint_every", scene.output.checkpoint_every, Count{1});
     visit("output", "contacts", scene.output.contacts, Plain{});
     visit("output", "stress_conventions", scene.output.stress_conventions, Plain{});
+    visit("output", "stress_per_rod", scene.output.stress_per_rod, Plain{});
     visit("output", "active_stress_lag", scene.output.active_stress_lag, Quantity{dim::time, positive, true});
 }
 

@@ -12,6 +12,7 @@
 #include "jostle/rods/box.hpp"
 #include "jostle/simulation/contact_solver.hpp"
 #include "jostle/simulation/step_report.hpp"
+#include "jostle/stress/collision_moments.hpp"
 
 namespace jostle {
 
@@ -31,6 +32,7 @@ struct SimulationSettings {
     SolverMethod method = SolverMethod::automatic;
     LcpSettings lcp;                  ///< tolerance as a length
     bool stress_conventions = false;  ///< other conventions of the stress are measured, too
+    bool collision_moments = false;   ///< the parts of the collision stress are kept, contact by contact
     std::optional<GrowthLaw> growth;
     int founder_bits = 0;  ///< ids of the rods at the start are below 2^founder_bits
 };
@@ -60,6 +62,8 @@ public:
     /// Of the last step, with the gaps before it.
     const Contacts& contacts() const { return contacts_; }
     const ContactSolution& contact_solution() const { return solution_; }
+    /// The parts of its collision stress, if the settings ask for them.
+    const CollisionMoments& collision_moments() const { return moments_; }
 
 private:
     void renumber();
@@ -99,6 +103,7 @@ private:
     std::vector<Push> pushes_;  ///< (N) by contact forces; all 0 between steps
     Contacts contacts_;
     ContactSolution solution_;
+    CollisionMoments moments_;
 };
 
 }  // namespace jostle

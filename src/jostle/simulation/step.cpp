@@ -178,6 +178,9 @@ void Simulation::measure_stress(StepReport& report) {
     });
     report.collision_virial =
         sum_of_pair_stresses(contacts_, solution_.gamma, rods_, axis, {solution_.rods, torque}, distance);
+    if (settings_.collision_moments)
+        moments_ = jostle::collision_moments(contacts_, solution_.gamma, rods_, box_, axis, {solution_.rods, torque},
+                                             distance);
     if (settings_.stress_conventions) {
         report.centre_of_mass_virial = centre_of_mass_virial(contacts_, solution_.gamma, rods_, axis, distance);
         report.centre_line_virial = centre_line_virial(contacts_, solution_.gamma, rods_, distance);

@@ -120,6 +120,7 @@ void check_unused(const Scene& scene) {
         std::string value;
         if (unused.key == "rods.file") value = scene.rods.file;
         if (unused.key == "rods.axis" && !(scene.rods.axis == defaults.rods.axis)) value = text(scene.rods.axis);
+        if (unused.key == "output.stress_per_rod" && scene.output.stress_per_rod) value = "true";
         if (unused.key == "contact.energy" && scene.contact.energy) value = text(*scene.contact.energy);
         if (unused.key == "contact.range" && scene.contact.range) value = text(*scene.contact.range);
         for (const auto& [key, given] : motion_values(scene))
@@ -369,6 +370,9 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
              {"growth.rate_deviation", "growth.division", "growth.division_length", "growth.division_deviation",
               "growth.daughters", "growth.stall_force", "growth.death_rate", "growth.division_every"})
             unused.push_back({key, "is not used without growth.rate", "Add rate under [growth], or remove it"});
+    if (scene.output.trajectory_every == 0)
+        unused.push_back({"output.stress_per_rod", "is not used without output.trajectory_every: there are no frames",
+                          "Set trajectory_every, or remove it"});
     if (start == StartKind::file && scene.rods.count == 0)
         unused.push_back({"rods.count", with + ": the file tells", "Remove count"});
     return unused;
