@@ -270,7 +270,7 @@ ExitCode start_run(const RunOptions& options, const Scene& scene, const std::str
                    const std::string& folder) {
     // The start is made before anything is touched on the disk: a scene that does not work out leaves no trace.
     Beginning beginning = beginning_of(scene, options.scene);
-    Simulation simulation = assemble(scene, beginning.box, std::move(beginning.rods), {});
+    Simulation simulation = assemble(scene, beginning.box, std::move(beginning.rods), {}, std::move(beginning.springs));
     if (options.fresh) {
         const std::string moved_to = move_aside(folder);
         if (!moved_to.empty() && !options.quiet)
@@ -287,10 +287,12 @@ ExitCode start_run(const RunOptions& options, const Scene& scene, const std::str
 ExitCode resume_run(const RunOptions& options, const Scene& scene, const std::string& resolved,
                     const RunDirectory& directory, Checkpoint checkpoint) {
     require_same_scene(checkpoint, resolved, directory.path());
+    require_same_springs(checkpoint, springs_from_file(scene, options.scene, checkpoint.rods),
+                         springs_path(scene, options.scene));
     const StepSums sums = StepSums::from_numbers(checkpoint.accumulators);
     RunFiles files(directory, scene, resolved, checkpoint);
-    Simulation simulation =
-        assemble(scene, checkpoint.box, std::move(checkpoint.rods), {checkpoint.step, checkpoint.time});
+    Simulation simulation = assemble(scene, checkpoint.box, std::move(checkpoint.rods),
+                                     {checkpoint.step, checkpoint.time}, std::move(checkpoint.springs));
     if (!options.quiet && !options.json)
         std::fprintf(stderr, "jostle: going on from step %llu\n", static_cast<unsigned long long>(checkpoint.step));
     return Run(options, scene, resolved, simulation, files, directory, sums).go();

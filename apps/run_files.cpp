@@ -195,6 +195,7 @@ void RunFiles::write_checkpoint(const Simulation& simulation, const StepSums& su
     checkpoint.time = simulation.clock().time;
     checkpoint.box = simulation.box();
     checkpoint.rods = simulation.rods();
+    checkpoint.springs = simulation.settings().springs;
     checkpoint.accumulators = sums.to_numbers();
     series_file_.sync();
     checkpoint.series_rows = series_.rows();

@@ -12,6 +12,7 @@ void StepSums::add(const StepReport& report) {
     steps += 1.0;
     rods += static_cast<double>(report.rods);
     collision_virial += report.collision_virial;
+    spring_virial += report.spring_virial;
     centre_of_mass_virial += report.centre_of_mass_virial;
     centre_line_virial += report.centre_line_virial;
     contacts += static_cast<double>(report.contacts);
@@ -34,7 +35,7 @@ void StepSums::start_row() {
 std::vector<double> StepSums::to_numbers() const {
     std::vector<double> numbers = {steps,       contacts,        active_contacts, iterations, residual,
                                    max_overlap, run_max_overlap, run_iterations,  rods};
-    for (const Mat3* sum : {&collision_virial, &centre_of_mass_virial, &centre_line_virial})
+    for (const Mat3* sum : {&collision_virial, &spring_virial, &centre_of_mass_virial, &centre_line_virial})
         numbers.insert(numbers.end(), sum->m.begin(), sum->m.end());
     if (active_stress) {
         const std::vector<double> positions = active_stress->to_numbers();
@@ -44,7 +45,7 @@ std::vector<double> StepSums::to_numbers() const {
 }
 
 StepSums StepSums::from_numbers(const std::vector<double>& numbers) {
-    constexpr std::size_t sums_count = 9 + 3 * 9;
+    constexpr std::size_t sums_count = 9 + 4 * 9;
     if (numbers.size() < sums_count)
         throw InputError({.key = "checkpoint",
                           .problem = "it holds sums of another version of jostle",
@@ -60,7 +61,8 @@ StepSums StepSums::from_numbers(const std::vector<double>& numbers) {
     sums.run_iterations = numbers[7];
     sums.rods = numbers[8];
     auto from = numbers.begin() + 9;
-    for (Mat3* sum : {&sums.collision_virial, &sums.centre_of_mass_virial, &sums.centre_line_virial}) {
+    for (Mat3* sum :
+         {&sums.collision_virial, &sums.spring_virial, &sums.centre_of_mass_virial, &sums.centre_line_virial}) {
         std::copy(from, from + 9, sum->m.begin());
         from += 9;
     }

@@ -11,7 +11,7 @@ struct StepSums {
     // since the last row
     double steps = 0.0;
     double rods = 0.0;  ///< summed over the steps
-    jostle::Mat3 collision_virial, centre_of_mass_virial, centre_line_virial;
+    jostle::Mat3 collision_virial, spring_virial, centre_of_mass_virial, centre_line_virial;
     double contacts = 0.0;
     double active_contacts = 0.0;
     double iterations = 0.0;

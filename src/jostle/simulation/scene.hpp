@@ -75,6 +75,11 @@ struct Scene {
 
     GrowthLaw growth;  // rate 0: none
 
+    struct SpringsTable {
+        std::string file;  // relative to the scene's folder; empty: no springs
+        bool operator==(const SpringsTable&) const = default;
+    } springs;
+
     struct ContactTable {
         ContactModel model = ContactModel::hard;  // "hard": the contact problem; "wca": a soft potential
         std::optional<double> energy;             // of the potential; "auto" (empty): kT

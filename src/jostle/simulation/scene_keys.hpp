@@ -96,6 +96,7 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("growth", "stall_force", scene.growth.stall_force, Quantity{dim::force, positive});
     visit("growth", "death_rate", scene.growth.death_rate, Quantity{dim::rate, zero_or_positive});
     visit("growth", "division_every", scene.growth.division_every, Count{1});
+    visit("springs", "file", scene.springs.file, Plain{});
     visit("contact", "model", scene.contact.model, Plain{});
     visit("contact", "energy", scene.contact.energy, Quantity{dim::energy, positive, true});
     visit("contact", "brownian_correction", scene.contact.brownian_correction, Plain{});

@@ -217,6 +217,13 @@ void check_growth(const Scene& scene) {
             "Or use model = \"finite_aspect_ratio\", which holds for every L/D");
 }
 
+void check_springs(const Scene& scene) {
+    if (!scene.springs.file.empty() && scene.growth.rate > 0.0)
+        refuse("springs.file", scene.springs.file,
+               "springs hold rods that stay, and with growth.rate cells divide and die", "no springs, or no growth",
+               "Remove [springs] or [growth]");
+}
+
 void check_solver(const Scene& scene) {
     if (scene.contact.model == ContactModel::wca) {
         if (!scene.contact.energy && scene.fluid.kT == 0.0)
@@ -277,6 +284,7 @@ void validate(const Scene& scene) {
     check_motion(scene);
     check_mobility(scene);
     check_growth(scene);
+    check_springs(scene);
     check_solver(scene);
     check_time(scene);
 }
@@ -373,6 +381,8 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
     if (scene.output.trajectory_every == 0)
         unused.push_back({"output.stress_per_rod", "is not used without output.trajectory_every: there are no frames",
                           "Set trajectory_every, or remove it"});
+    if (scene.springs.file.empty())
+        unused.push_back({"springs.file", "names no file", "Name a CSV file of springs, or remove [springs]"});
     if (start == StartKind::file && scene.rods.count == 0)
         unused.push_back({"rods.count", with + ": the file tells", "Remove count"});
     return unused;

@@ -32,7 +32,10 @@ public:
         draw_contact(scene);
         draw_time(scene);
         draw_tumbles(scene);
-        scene.output = {1 + random_() % 1000, random_() % 1000, 1 + (random_() >> 2), chance(), chance(), std::nullopt};
+        scene.output = {1 + random_() % 1000, random_() % 1000, 1 + (random_() >> 2), chance(), chance(), false,
+                        std::nullopt};
+        scene.output.stress_per_rod = scene.output.trajectory_every > 0 && chance();
+        if (chance()) scene.springs.file = text() + "springs.csv";
         if (scene.motion.self_propulsion > 0.0 && chance()) scene.output.active_stress_lag = number(1e-3, 1e3);
         return scene;
     }
