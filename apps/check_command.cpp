@@ -154,6 +154,7 @@ ExitCode check_command(const std::string& scene_path) {
     const double dt = time_step(scene, *mobility, population.rods);
     const Swimming swimming = swimming_in_file(scene, scene_path, population.rods);
     const SpringsOfScene springs = springs_of(scene, scene_path, population, *mobility, dt);
+    const auto field = field_in_file(scene, scene_path, box);
     const UnitSystem units = scene.units.system;
 
     std::printf("%s\n# what follows from it\n", to_toml(scene).c_str());
@@ -167,6 +168,10 @@ ExitCode check_command(const std::string& scene_path) {
     print_motion(scene, *mobility, population.rods, dt);
     if (scene.motion.self_propulsion != 0.0) print_swimming(scene, swimming, *mobility, population.rods, dt);
     if (springs.count > 0) print_springs(springs);
+    if (field) {
+        const auto& [x, y, z] = field->cells();
+        print("stress field", fmt::format("{} x {} x {} cells", x, y, z));
+    }
     print_cost(scene, population, phi, dt);
     return ExitCode::done;
 }

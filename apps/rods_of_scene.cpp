@@ -50,6 +50,14 @@ std::vector<Spring> springs_from_file(const Scene& scene, const std::filesystem:
     return read_springs(springs_path(scene, scene_path), rods.size(), [&](std::uint64_t id) { return length[id]; });
 }
 
+std::optional<StressField> field_in_file(const Scene& scene, const std::filesystem::path& scene_path, const Box& box) {
+    try {
+        return make_field(scene, box);
+    } catch (const InputError& error) {
+        throw error.with_place({scene_path.string()});
+    }
+}
+
 double slow_springs_in_file(const Scene& scene, const std::filesystem::path& scene_path,
                             std::span<const Spring> springs, const MobilityOfRod& mobility_of, double time_step) {
     const double relaxation = spring_relaxation(springs, mobility_of, time_step);
@@ -67,6 +75,7 @@ Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_pa
         const Box box = box_of(scene, from_file);
         Beginning beginning = {box, make_start(scene, box, from_file), {}};
         swimming_in_file(scene, scene_path, beginning.rods);
+        field_in_file(scene, scene_path, box);
         beginning.springs = springs_from_file(scene, scene_path, beginning.rods);
         hold_nearest_images(beginning.springs, beginning.rods, box);
         const auto mobility = make_mobility(scene, beginning.rods);

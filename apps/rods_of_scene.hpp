@@ -9,6 +9,7 @@
 #include "jostle/motion/springs.hpp"
 #include "jostle/rods/box.hpp"
 #include "jostle/simulation/scene.hpp"
+#include "jostle/stress/stress_field.hpp"
 
 /// Rods and box of a scene, before any step.
 struct Beginning {
@@ -34,6 +35,10 @@ std::vector<jostle::Spring> springs_from_file(const jostle::Scene& scene, const 
 double slow_springs_in_file(const jostle::Scene& scene, const std::filesystem::path& scene_path,
                             std::span<const jostle::Spring> springs, const jostle::MobilityOfRod& mobility_of,
                             double time_step);
+
+/// The stress field of a scene. Errors: InputError, with the scene's name, where its cells are too many.
+std::optional<jostle::StressField> field_in_file(const jostle::Scene& scene, const std::filesystem::path& scene_path,
+                                                 const jostle::Box& box);
 
 /// How rods swim. Errors: InputError, with the scene's name, where tumbles are too fast for the time step.
 jostle::Swimming swimming_in_file(const jostle::Scene& scene, const std::filesystem::path& scene_path,

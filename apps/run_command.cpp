@@ -91,6 +91,7 @@ public:
             const StepReport report = simulation_.step();
             if (const auto failure = failure_of(report)) return give_up(report, *failure);
             sums_.add(report);
+            if (sums_.field) sums_.field->add(simulation_.collision_moments(), simulation_.rods().centre);
             if (scene_.growth.rate > 0.0) files_.append_lineage(simulation_);
             if (simulation_.rods().size() == 0) continue;
             write_what_is_due();
@@ -125,6 +126,10 @@ private:
             sums_.start_row();
         }
         if (due(scene_.output.trajectory_every)) files_.append_frame(simulation_);
+        if (due(scene_.output.field_every)) {
+            files_.append_field(simulation_, *sums_.field);
+            sums_.field->clear();
+        }
         if (due(scene_.output.checkpoint_every)) checkpoint();
     }
 
@@ -257,6 +262,7 @@ bool has_rows(const std::string& series) {
 /// Sums at the beginning of a run.
 StepSums first_sums(const Scene& scene, const Simulation& simulation) {
     StepSums sums;
+    sums.field = make_field(scene, simulation.box());
     if (scene.motion.self_propulsion == 0.0) return sums;
     const Rods& rods = simulation.rods();
     const double row_time = simulation.settings().time_step * static_cast<double>(scene.output.series_every);

@@ -39,6 +39,25 @@ std::vector<SeriesColumn> lineage_columns(UnitSystem units) {
             {"length", unit_of(units, dimension::length), "L", "length of the cell then", ""}};
 }
 
+std::vector<SeriesColumn> field_columns(UnitSystem units) {
+    const std::string length = unit_of(units, dimension::length);
+    std::vector<SeriesColumn> columns = {
+        {"step", "1", "k", "number of steps done", ""},
+        {"time", unit_of(units, dimension::time), "t", "simulated time", ""},
+        {"x", length, "", "centre of the cell; not a number: all that lies beyond open edges of the box", ""},
+        {"y", length, "", "centre of the cell", ""},
+        {"z", length, "", "centre of the cell", ""},
+        {"number_density", unit_of(units, dimension::number_density), "n",
+         "rods per volume in the cell, mean over the steps since the last field", ""}};
+    for (const char* name : stress_column_names)
+        columns.push_back(
+            {name, unit_of(units, dimension::stress), "Sigma_col",
+             "element of the collision stress in the cell (position, force), mean over the steps since the "
+             "last field",
+             "positive in compression"});
+    return columns;
+}
+
 /// Tables beside the series.
 struct SideTable {
     std::string name;
@@ -48,14 +67,16 @@ struct SideTable {
     std::uint64_t Checkpoint::*hash;
 };
 
-enum : std::size_t { contacts_table, lineage_table };
+enum : std::size_t { contacts_table, lineage_table, field_table };
 
-std::array<SideTable, 2> side_tables(const Scene& scene) {
+std::array<SideTable, 3> side_tables(const Scene& scene) {
     const UnitSystem units = scene.units.system;
     return {{{"contacts", scene.output.contacts, contact_columns(units), &Checkpoint::contacts_bytes,
               &Checkpoint::contacts_hash},
              {"lineage", scene.growth.rate > 0.0, lineage_columns(units), &Checkpoint::lineage_bytes,
-              &Checkpoint::lineage_hash}}};
+              &Checkpoint::lineage_hash},
+             {"field", scene.output.field_every > 0, field_columns(units), &Checkpoint::field_bytes,
+              &Checkpoint::field_hash}}};
 }
 
 std::vector<std::string> names_of(const std::vector<SeriesColumn>& columns) {
@@ -186,6 +207,24 @@ void RunFiles::append_lineage(const Simulation& simulation) {
                                          event.length};
         side_files_[lineage_table]->append(row);
     }
+}
+
+void RunFiles::append_field(const Simulation& simulation, const StressField& field) {
+    const auto append = [&](const Vec3& centre, double density, const Mat3& stress) {
+        std::vector<double> row = {static_cast<double>(simulation.clock().step),
+                                   simulation.clock().time,
+                                   centre.x,
+                                   centre.y,
+                                   centre.z,
+                                   density};
+        row.insert(row.end(), stress.m.begin(), stress.m.end());
+        side_files_[field_table]->append(row);
+    };
+    for (std::size_t cell = 0; cell < field.size(); ++cell)
+        append(field.centre(cell), field.number_density(cell), field.stress(cell));
+    const double nowhere = std::numeric_limits<double>::quiet_NaN();
+    if (field.has_outside())
+        append({nowhere, nowhere, nowhere}, field.outside_number_density(), field.outside_stress());
 }
 
 void RunFiles::write_checkpoint(const Simulation& simulation, const StepSums& sums) {

@@ -5,6 +5,7 @@
 
 #include "jostle/simulation/step_report.hpp"
 #include "jostle/stress/active_stress.hpp"
+#include "jostle/stress/stress_field.hpp"
 
 /// What is added up over the steps of one row of the series, and over the whole run. Goes into every checkpoint.
 struct StepSums {
@@ -23,6 +24,8 @@ struct StepSums {
     // of swimmers
     std::optional<jostle::ActiveStress> active_stress;
     jostle::Mat3 active_virial;  ///< V times it, at the step of the row
+    // since the last field
+    std::optional<jostle::StressField> field;
 
     void add(const jostle::StepReport& report);
     void start_row();

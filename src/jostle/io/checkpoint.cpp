@@ -83,6 +83,8 @@ std::string payload_of(const Checkpoint& checkpoint) {
     writer.put(checkpoint.trajectory_bytes);
     writer.put(checkpoint.contacts_bytes);
     writer.put(checkpoint.contacts_hash);
+    writer.put(checkpoint.field_bytes);
+    writer.put(checkpoint.field_hash);
     writer.put(checkpoint.lineage_bytes);
     writer.put(checkpoint.lineage_hash);
     return writer.bytes();
@@ -106,6 +108,8 @@ Checkpoint from_payload(std::string_view payload) {
     checkpoint.trajectory_bytes = reader.take<std::uint64_t>();
     checkpoint.contacts_bytes = reader.take<std::uint64_t>();
     checkpoint.contacts_hash = reader.take<std::uint64_t>();
+    checkpoint.field_bytes = reader.take<std::uint64_t>();
+    checkpoint.field_hash = reader.take<std::uint64_t>();
     checkpoint.lineage_bytes = reader.take<std::uint64_t>();
     checkpoint.lineage_hash = reader.take<std::uint64_t>();
     if (!reader.empty()) throw std::out_of_range("bytes are left over");

@@ -26,6 +26,8 @@ struct Checkpoint {
     std::uint64_t trajectory_bytes = 0;  ///< length of trajectory.journal; 0: the run keeps no trajectory
     std::uint64_t contacts_bytes = 0;    ///< length of contacts.csv; 0: the run keeps none
     std::uint64_t contacts_hash = 0;     ///< checksum of these bytes
+    std::uint64_t field_bytes = 0;       ///< length of field.csv; 0: the run keeps none
+    std::uint64_t field_hash = 0;        ///< checksum of these bytes
     std::uint64_t lineage_bytes = 0;     ///< length of lineage.csv; 0: nothing grows
     std::uint64_t lineage_hash = 0;      ///< checksum of these bytes
 };

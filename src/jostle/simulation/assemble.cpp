@@ -137,6 +137,12 @@ void set_growth(const Scene& scene, SimulationSettings& settings) {
 
 }  // namespace
 
+std::optional<StressField> make_field(const Scene& scene, const Box& box) {
+    if (scene.output.field_every == 0) return std::nullopt;
+    const double longest = scene.growth.rate > 0.0 ? scene.growth.division_length : scene.rods.length;
+    return StressField(box, scene.output.field_spacing.value_or(longest + scene.rods.diameter));
+}
+
 void require_slow_springs(const Scene& scene, double relaxation, double time_step) {
     if (relaxation <= 1.0) return;
     throw InputError({.key = "springs.file",
@@ -162,7 +168,7 @@ Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock, 
         settings.range = (wca_range - 1.0) * *std::max_element(rods.diameter.begin(), rods.diameter.end());
     }
     settings.stress_conventions = scene.output.stress_conventions;
-    settings.collision_moments = scene.output.stress_per_rod;
+    settings.collision_moments = scene.output.stress_per_rod || scene.output.field_every > 0;
     settings.method = scene.solver.method;
     const bool paper = scene.solver.residual == ResidualKind::paper;
     settings.lcp.residual = paper ? LcpResidual::paper : LcpResidual::length;

@@ -6,6 +6,7 @@
 #include "jostle/motion/self_propulsion.hpp"
 #include "jostle/simulation/scene.hpp"
 #include "jostle/simulation/simulation.hpp"
+#include "jostle/stress/stress_field.hpp"
 
 namespace jostle {
 
@@ -32,6 +33,9 @@ double persistence_time(const Scene& scene, const Mobility& mobility, std::size_
 /// `output.active_stress_lag`, a time; "auto": 5 persistence times, or a tenth of `time.production` where those are
 /// infinite.
 double active_stress_lag(const Scene& scene, const Mobility& mobility, std::size_t rod_count);
+
+/// The stress field that a scene asks for, without steps, if any. Throws InputError where its cells are too many.
+std::optional<StressField> make_field(const Scene& scene, const Box& box);
 
 /// Throws InputError (springs.file) if springs would lose more than all of their stretch in a step, by
 /// `spring_relaxation`.

@@ -117,6 +117,8 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("output", "contacts", scene.output.contacts, Plain{});
     visit("output", "stress_conventions", scene.output.stress_conventions, Plain{});
     visit("output", "stress_per_rod", scene.output.stress_per_rod, Plain{});
+    visit("output", "field_every", scene.output.field_every, Count{0});
+    visit("output", "field_spacing", scene.output.field_spacing, Quantity{dim::length, positive, true});
     visit("output", "active_stress_lag", scene.output.active_stress_lag, Quantity{dim::time, positive, true});
 }
 

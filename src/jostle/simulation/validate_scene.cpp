@@ -120,6 +120,8 @@ void check_unused(const Scene& scene) {
         std::string value;
         if (unused.key == "rods.file") value = scene.rods.file;
         if (unused.key == "rods.axis" && !(scene.rods.axis == defaults.rods.axis)) value = text(scene.rods.axis);
+        if (unused.key == "output.field_spacing" && scene.output.field_spacing)
+            value = text(*scene.output.field_spacing);
         if (unused.key == "output.stress_per_rod" && scene.output.stress_per_rod) value = "true";
         if (unused.key == "contact.energy" && scene.contact.energy) value = text(*scene.contact.energy);
         if (unused.key == "contact.range" && scene.contact.range) value = text(*scene.contact.range);
@@ -381,6 +383,9 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
     if (scene.output.trajectory_every == 0)
         unused.push_back({"output.stress_per_rod", "is not used without output.trajectory_every: there are no frames",
                           "Set trajectory_every, or remove it"});
+    if (scene.output.field_every == 0)
+        unused.push_back({"output.field_spacing", "is not used without output.field_every: there is no field",
+                          "Set field_every, or remove it"});
     if (scene.springs.file.empty())
         unused.push_back({"springs.file", "names no file", "Name a CSV file of springs, or remove [springs]"});
     if (start == StartKind::file && scene.rods.count == 0)

@@ -35,8 +35,10 @@ Checkpoint two_rods(std::uint64_t step = 7) {
     checkpoint.trajectory_bytes = 12345;
     checkpoint.contacts_bytes = 1ull << 40;
     checkpoint.contacts_hash = 77;
-    checkpoint.contacts_bytes = 678;
-    checkpoint.contacts_hash = 91011;
+    checkpoint.field_bytes = 678;
+    checkpoint.field_hash = 91011;
+    checkpoint.lineage_bytes = 13;
+    checkpoint.lineage_hash = 0x123456789abcdefu;
     return checkpoint;
 }
 
@@ -48,8 +50,8 @@ bool same(const Checkpoint& a, const Checkpoint& b) {
            a.springs == b.springs && a.accumulators == b.accumulators && a.series_rows == b.series_rows &&
            a.series_bytes == b.series_bytes && a.series_hash == b.series_hash &&
            a.trajectory_bytes == b.trajectory_bytes && a.contacts_bytes == b.contacts_bytes &&
-           a.contacts_hash == b.contacts_hash && a.contacts_bytes == b.contacts_bytes &&
-           a.contacts_hash == b.contacts_hash;
+           a.contacts_hash == b.contacts_hash && a.field_bytes == b.field_bytes && a.field_hash == b.field_hash &&
+           a.lineage_bytes == b.lineage_bytes && a.lineage_hash == b.lineage_hash;
 }
 
 }  // namespace
