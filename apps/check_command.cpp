@@ -9,6 +9,7 @@
 
 #include "jostle/io/scene_reader.hpp"
 #include "jostle/io/scene_writer.hpp"
+#include "jostle/io/springs_file.hpp"
 #include "jostle/io/units.hpp"
 #include "jostle/simulation/assemble.hpp"
 #include "jostle/simulation/rod_size.hpp"
@@ -103,6 +104,28 @@ void print_motion(const Scene& scene, const Mobility& mobility, const Rods& rods
     }
 }
 
+struct SpringsOfScene {
+    std::size_t count = 0;
+    double relaxation = 0.0;
+};
+
+/// Reads and checks the springs. Of a scene whose rods are all alike, `population` holds one for all.
+SpringsOfScene springs_of(const Scene& scene, const std::string& scene_path, const Population& population,
+                          const Mobility& mobility, double dt) {
+    if (scene.springs.file.empty()) return {};
+    const auto row_of = [&](std::uint64_t id) { return population.rods.size() == 1 ? 0 : id; };
+    const auto length_of = [&](std::uint64_t id) { return population.rods.length[row_of(id)]; };
+    const auto springs =
+        read_springs(springs_path(scene, scene_path), static_cast<std::uint64_t>(population.count), length_of);
+    const auto mobility_of = [&](std::uint64_t id) { return mobility.of_rod(row_of(id)); };
+    return {springs.size(), slow_springs_in_file(scene, scene_path, springs, mobility_of, dt)};
+}
+
+void print_springs(const SpringsOfScene& springs) {
+    print("springs", fmt::format("{}", springs.count));
+    print("springs relax per step", fmt::format("{:.3g} of their stretch at most", springs.relaxation));
+}
+
 /// How a population changes in a time, without noise and stalling: its end, and its mean, over its beginning.
 struct PopulationGrowth {
     double end = 1.0, mean = 1.0;
@@ -145,6 +168,8 @@ ExitCode check_command(const std::string& scene_path) {
     const auto mobility = make_mobility(scene, population.rods);
     const double dt = time_step(scene, *mobility, population.rods);
     require_slow_tumbles_in_file(scene, scene_path, population.rods);
+    const SpringsOfScene springs = springs_of(scene, scene_path, population, *mobility, dt);
+    const auto field = field_in_file(scene, scene_path, box);
     const UnitSystem units = scene.units.system;
 
     std::printf("%s\n# what follows from it\n", to_toml(scene).c_str());
@@ -157,6 +182,11 @@ ExitCode check_command(const std::string& scene_path) {
     print("time step", with_unit(dt, units, dimension::time));
     print_motion(scene, *mobility, population.rods, dt);
     if (scene.motion.self_propulsion != 0.0) print_swimming(scene, *mobility, population.rods, dt);
+    if (springs.count > 0) print_springs(springs);
+    if (field) {
+        const auto& [x, y, z] = field->cells();
+        print("stress field", fmt::format("{} x {} x {} cells", x, y, z));
+    }
     print_cost(scene, population, phi, dt);
     return ExitCode::done;
 }

@@ -4,6 +4,7 @@
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/io/rods_file.hpp"
+#include "jostle/io/springs_file.hpp"
 #include "jostle/simulation/assemble.hpp"
 #include "jostle/simulation/start.hpp"
 #include "jostle/simulation/validate_scene.hpp"
@@ -38,12 +39,50 @@ void require_slow_tumbles_in_file(const Scene& scene, const std::filesystem::pat
     }
 }
 
+std::string springs_path(const Scene& scene, const std::filesystem::path& scene_path) {
+    return (scene_path.parent_path() / scene.springs.file).string();
+}
+
+std::vector<Spring> springs_from_file(const Scene& scene, const std::filesystem::path& scene_path, const Rods& rods) {
+    if (scene.springs.file.empty()) return {};
+    std::vector<double> length(rods.size());  // by id: where nothing grows, ids are 0 to N - 1
+    for (std::size_t i = 0; i < rods.size(); ++i) length.at(rods.id[i]) = rods.length[i];
+    return read_springs(springs_path(scene, scene_path), rods.size(), [&](std::uint64_t id) { return length[id]; });
+}
+
+std::optional<StressField> field_in_file(const Scene& scene, const std::filesystem::path& scene_path, const Box& box) {
+    try {
+        return make_field(scene, box);
+    } catch (const InputError& error) {
+        throw error.with_place({scene_path.string()});
+    }
+}
+
+double slow_springs_in_file(const Scene& scene, const std::filesystem::path& scene_path,
+                            std::span<const Spring> springs, const MobilityOfRod& mobility_of, double time_step) {
+    const double relaxation = spring_relaxation(springs, mobility_of, time_step);
+    try {
+        require_slow_springs(scene, relaxation, time_step);
+    } catch (const InputError& error) {
+        throw error.with_place({scene_path.string()});
+    }
+    return relaxation;
+}
+
 Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_path) {
     try {
         const auto from_file = rods_from_file(scene, scene_path);
         const Box box = box_of(scene, from_file);
-        Beginning beginning = {box, make_start(scene, box, from_file)};
+        Beginning beginning = {box, make_start(scene, box, from_file), {}};
         require_slow_tumbles_in_file(scene, scene_path, beginning.rods);
+        field_in_file(scene, scene_path, box);
+        beginning.springs = springs_from_file(scene, scene_path, beginning.rods);
+        hold_nearest_images(beginning.springs, beginning.rods, box);
+        const auto mobility = make_mobility(scene, beginning.rods);
+        slow_springs_in_file(
+            scene, scene_path, beginning.springs,
+            [&](std::uint64_t id) { return mobility->of_rod(id); },  // at the start rows are ids
+            time_step(scene, *mobility, beginning.rods));
         return beginning;
     } catch (const InputError& error) {
         if (!error.parts().place.file.empty()) throw;

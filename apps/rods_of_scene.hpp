@@ -2,14 +2,19 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "jostle/motion/springs.hpp"
 #include "jostle/rods/box.hpp"
 #include "jostle/simulation/scene.hpp"
+#include "jostle/stress/stress_field.hpp"
 
 /// Rods and box of a scene, before any step.
 struct Beginning {
     jostle::Box box;
     jostle::Rods rods;
+    std::vector<jostle::Spring> springs;
 };
 
 /// Reads the rods file of a scene with start = "file", if it has one; a relative path counts from the scene's folder.
@@ -17,6 +22,22 @@ std::optional<jostle::Rods> rods_from_file(const jostle::Scene& scene, const std
 
 /// The box of a scene, for these rods or, if there are none, for those that the scene describes.
 jostle::Box box_of(const jostle::Scene& scene, const std::optional<jostle::Rods>& rods);
+
+/// The springs file of a scene, relative to the scene's folder.
+std::string springs_path(const jostle::Scene& scene, const std::filesystem::path& scene_path);
+
+/// The springs of a scene between these rods, empty where it names none; images are 0. Errors: InputError, DiskError.
+std::vector<jostle::Spring> springs_from_file(const jostle::Scene& scene, const std::filesystem::path& scene_path,
+                                              const jostle::Rods& rods);
+
+/// `spring_relaxation`. Errors: InputError, with the scene's name, where springs are too stiff for the time step.
+double slow_springs_in_file(const jostle::Scene& scene, const std::filesystem::path& scene_path,
+                            std::span<const jostle::Spring> springs, const jostle::MobilityOfRod& mobility_of,
+                            double time_step);
+
+/// The stress field of a scene. Errors: InputError, with the scene's name, where its cells are too many.
+std::optional<jostle::StressField> field_in_file(const jostle::Scene& scene, const std::filesystem::path& scene_path,
+                                                 const jostle::Box& box);
 
 /// Throws InputError, with the scene's name, where tumbles are too fast for the time step.
 void require_slow_tumbles_in_file(const jostle::Scene& scene, const std::filesystem::path& scene_path,

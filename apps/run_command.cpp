@@ -91,6 +91,7 @@ public:
             const StepReport report = simulation_.step();
             if (const auto failure = failure_of(report)) return give_up(report, *failure);
             sums_.add(report);
+            if (sums_.field) sums_.field->add(simulation_.collision_moments(), simulation_.rods().centre);
             if (scene_.growth.rate > 0.0) files_.append_lineage(simulation_);
             if (simulation_.rods().size() == 0) continue;
             write_what_is_due();
@@ -125,6 +126,10 @@ private:
             sums_.start_row();
         }
         if (due(scene_.output.trajectory_every)) files_.append_frame(simulation_);
+        if (due(scene_.output.field_every)) {
+            files_.append_field(simulation_, *sums_.field);
+            sums_.field->clear();
+        }
         if (due(scene_.output.checkpoint_every)) checkpoint();
     }
 
@@ -224,6 +229,7 @@ private:
         attributes.length_unit = unit_of(units, dimension::length);
         attributes.time_unit = unit_of(units, dimension::time);
         attributes.stress_unit = unit_of(units, dimension::stress);
+        attributes.energy_unit = unit_of(units, dimension::energy);
         write_h5md(directory_.file("trajectory.journal"), directory_.file("trajectory.h5"), attributes,
                    &files_.series());
     }
@@ -256,6 +262,7 @@ bool has_rows(const std::string& series) {
 /// Sums at the beginning of a run.
 StepSums first_sums(const Scene& scene, const Simulation& simulation) {
     StepSums sums;
+    sums.field = make_field(scene, simulation.box());
     if (scene.motion.self_propulsion == 0.0) return sums;
     const Rods& rods = simulation.rods();
     const double row_time = simulation.settings().time_step * static_cast<double>(scene.output.series_every);
@@ -269,7 +276,7 @@ ExitCode start_run(const RunOptions& options, const Scene& scene, const std::str
                    const std::string& folder) {
     // The start is made before anything is touched on the disk: a scene that does not work out leaves no trace.
     Beginning beginning = beginning_of(scene, options.scene);
-    Simulation simulation = assemble(scene, beginning.box, std::move(beginning.rods), {});
+    Simulation simulation = assemble(scene, beginning.box, std::move(beginning.rods), {}, std::move(beginning.springs));
     if (options.fresh) {
         const std::string moved_to = move_aside(folder);
         if (!moved_to.empty() && !options.quiet)
@@ -286,10 +293,12 @@ ExitCode start_run(const RunOptions& options, const Scene& scene, const std::str
 ExitCode resume_run(const RunOptions& options, const Scene& scene, const std::string& resolved,
                     const RunDirectory& directory, Checkpoint checkpoint) {
     require_same_scene(checkpoint, resolved, directory.path());
+    require_same_springs(checkpoint, springs_from_file(scene, options.scene, checkpoint.rods),
+                         springs_path(scene, options.scene));
     const StepSums sums = StepSums::from_numbers(checkpoint.accumulators);
     RunFiles files(directory, scene, resolved, checkpoint);
-    Simulation simulation =
-        assemble(scene, checkpoint.box, std::move(checkpoint.rods), {checkpoint.step, checkpoint.time});
+    Simulation simulation = assemble(scene, checkpoint.box, std::move(checkpoint.rods),
+                                     {checkpoint.step, checkpoint.time}, std::move(checkpoint.springs));
     if (!options.quiet && !options.json)
         std::fprintf(stderr, "jostle: going on from step %llu\n", static_cast<unsigned long long>(checkpoint.step));
     return Run(options, scene, resolved, simulation, files, directory, sums).go();

@@ -1,9 +1,12 @@
 #include "run_files.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "jostle/io/units.hpp"
 #include "jostle/rods/space_filling_order.hpp"
+#include "jostle/stress/stress_per_rod.hpp"
 #include "series_columns.hpp"
 
 using namespace jostle;
@@ -36,6 +39,25 @@ std::vector<SeriesColumn> lineage_columns(UnitSystem units) {
             {"length", unit_of(units, dimension::length), "L", "length of the cell then", ""}};
 }
 
+std::vector<SeriesColumn> field_columns(UnitSystem units) {
+    const std::string length = unit_of(units, dimension::length);
+    std::vector<SeriesColumn> columns = {
+        {"step", "1", "k", "number of steps done", ""},
+        {"time", unit_of(units, dimension::time), "t", "simulated time", ""},
+        {"x", length, "", "centre of the cell; not a number: all that lies beyond open edges of the box", ""},
+        {"y", length, "", "centre of the cell", ""},
+        {"z", length, "", "centre of the cell", ""},
+        {"number_density", unit_of(units, dimension::number_density), "n",
+         "rods per volume in the cell, mean over the steps since the last field", ""}};
+    for (const char* name : stress_column_names)
+        columns.push_back(
+            {name, unit_of(units, dimension::stress), "Sigma_col",
+             "element of the collision stress in the cell (position, force), mean over the steps since the "
+             "last field",
+             "positive in compression"});
+    return columns;
+}
+
 /// Tables beside the series.
 struct SideTable {
     std::string name;
@@ -45,14 +67,16 @@ struct SideTable {
     std::uint64_t Checkpoint::*hash;
 };
 
-enum : std::size_t { contacts_table, lineage_table };
+enum : std::size_t { contacts_table, lineage_table, field_table };
 
-std::array<SideTable, 2> side_tables(const Scene& scene) {
+std::array<SideTable, 3> side_tables(const Scene& scene) {
     const UnitSystem units = scene.units.system;
     return {{{"contacts", scene.output.contacts, contact_columns(units), &Checkpoint::contacts_bytes,
               &Checkpoint::contacts_hash},
              {"lineage", scene.growth.rate > 0.0, lineage_columns(units), &Checkpoint::lineage_bytes,
-              &Checkpoint::lineage_hash}}};
+              &Checkpoint::lineage_hash},
+             {"field", scene.output.field_every > 0, field_columns(units), &Checkpoint::field_bytes,
+              &Checkpoint::field_hash}}};
 }
 
 std::vector<std::string> names_of(const std::vector<SeriesColumn>& columns) {
@@ -73,6 +97,19 @@ SeriesFile resumed_series(const RunDirectory& directory, const Scene& scene, con
                               checkpoint.series_hash);
 }
 
+/// The stress of every rod (N) in the last step; not a number for a rod that was not in it.
+std::vector<Mat3> stress_of_last_step(const Simulation& simulation, const std::vector<std::uint64_t>& ids) {
+    const Mat3 unknown = std::numeric_limits<double>::quiet_NaN() * Mat3{{1, 1, 1, 1, 1, 1, 1, 1, 1}};
+    if (simulation.clock().step == 0) return std::vector<Mat3>(ids.size(), unknown);
+    std::vector<Mat3> stress = stress_per_rod(simulation.collision_moments(), ids);
+    for (const LineageEvent& event : simulation.lineage()) {
+        const auto found = std::lower_bound(ids.begin(), ids.end(), event.id);
+        if (event.kind == LineageEvent::Kind::birth && found != ids.end() && *found == event.id)
+            stress[static_cast<std::size_t>(found - ids.begin())] = unknown;
+    }
+    return stress;
+}
+
 }  // namespace
 
 RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::string resolved_scene,
@@ -85,7 +122,10 @@ RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::strin
                std::vector<std::vector<double>>(series_file_.columns().size())};
     write_series_description(directory.file("series.json"), series_file_.columns());
     if (scene.output.trajectory_every > 0) {
-        journal_ = TrajectoryJournal::create(directory.file("trajectory.journal"));
+        const bool stress = scene.output.stress_per_rod;
+        journal_ = TrajectoryJournal::create(
+            directory.file("trajectory.journal"),
+            stress ? TrajectoryJournal::Content::rods_and_stress : TrajectoryJournal::Content::rods);
         append_frame(simulation);
     }
     const auto tables = side_tables(scene);
@@ -119,9 +159,10 @@ void RunFiles::append_row(const std::vector<double>& row) {
 }
 
 void RunFiles::append_frame(const Simulation& simulation) {
-    const Rods& rods = simulation.rods();
-    journal_->append(simulation.clock().step, simulation.clock().time, simulation.box(),
-                     reordered(rods, id_order(rods)));
+    const Rods rods = reordered(simulation.rods(), id_order(simulation.rods()));
+    std::vector<Mat3> stress;
+    if (scene_.output.stress_per_rod) stress = stress_of_last_step(simulation, rods.id);
+    journal_->append(simulation.clock().step, simulation.clock().time, simulation.box(), rods, stress);
 }
 
 void RunFiles::append_contacts(const Simulation& simulation) {
@@ -168,6 +209,24 @@ void RunFiles::append_lineage(const Simulation& simulation) {
     }
 }
 
+void RunFiles::append_field(const Simulation& simulation, const StressField& field) {
+    const auto append = [&](const Vec3& centre, double density, const Mat3& stress) {
+        std::vector<double> row = {static_cast<double>(simulation.clock().step),
+                                   simulation.clock().time,
+                                   centre.x,
+                                   centre.y,
+                                   centre.z,
+                                   density};
+        row.insert(row.end(), stress.m.begin(), stress.m.end());
+        side_files_[field_table]->append(row);
+    };
+    for (std::size_t cell = 0; cell < field.size(); ++cell)
+        append(field.centre(cell), field.number_density(cell), field.stress(cell));
+    const double nowhere = std::numeric_limits<double>::quiet_NaN();
+    if (field.has_outside())
+        append({nowhere, nowhere, nowhere}, field.outside_number_density(), field.outside_stress());
+}
+
 void RunFiles::write_checkpoint(const Simulation& simulation, const StepSums& sums) {
     Checkpoint checkpoint;
     checkpoint.scene = resolved_scene_;
@@ -175,6 +234,7 @@ void RunFiles::write_checkpoint(const Simulation& simulation, const StepSums& su
     checkpoint.time = simulation.clock().time;
     checkpoint.box = simulation.box();
     checkpoint.rods = simulation.rods();
+    checkpoint.springs = simulation.settings().springs;
     checkpoint.accumulators = sums.to_numbers();
     series_file_.sync();
     checkpoint.series_rows = series_.rows();

@@ -27,6 +27,8 @@ public:
     void append_frame(const jostle::Simulation& simulation);
     /// The contacts with a force in the last step.
     void append_contacts(const jostle::Simulation& simulation);
+    /// The stress field: a row a cell, and one of what lies outside where the box is open.
+    void append_field(const jostle::Simulation& simulation, const jostle::StressField& field);
     /// Who was born and who died after the last step.
     void append_lineage(const jostle::Simulation& simulation);
 
@@ -44,5 +46,5 @@ private:
     jostle::SeriesFile series_file_;
     jostle::SeriesTable series_;
     std::optional<jostle::TrajectoryJournal> journal_;
-    std::array<std::optional<jostle::SeriesFile>, 2> side_files_;  ///< contacts, lineage
+    std::array<std::optional<jostle::SeriesFile>, 3> side_files_;  ///< contacts, lineage, field
 };

@@ -23,20 +23,32 @@ void append_active_columns(const Scene& scene, std::vector<SeriesColumn>& column
                            sign});
 }
 
+void append_spring_columns(const Scene& scene, std::vector<SeriesColumn>& columns) {
+    const std::string stress = unit_of(scene.units.system, dimension::stress);
+    const std::string sign = "positive in compression: negative where springs pull";
+    columns.push_back(
+        {"pressure_springs", stress, "Pi_spr", "Tr Sigma_spr/3, mean over the steps since the last row", sign});
+    for (const char* name : spring_stress_column_names)
+        columns.push_back({name, stress, "Sigma_spr",
+                           "element of the stress of springs (position, force), mean over the steps since the last row",
+                           sign});
+}
+
 }  // namespace
 
 std::vector<SeriesColumn> series_columns(const Scene& scene) {
     const UnitSystem units = scene.units.system;
     const std::string stress = unit_of(units, dimension::stress);
     const std::string pressure_sign = "positive in compression";
+    const bool springs = !scene.springs.file.empty();
+    const std::string parts = springs ? "with the kinetic part n kT and that of springs" : "with the kinetic part n kT";
     std::vector<SeriesColumn> columns = {
         {"step", "1", "k", "number of steps done", ""},
         {"time", unit_of(units, dimension::time), "t", "simulated time", ""},
         {"N", "1", "N", "number of rods at this step", ""},
         {"phi", "1", "phi", "volume of the rods at this step over volume of the box", ""},
         {"Z", "1", "Z", "compressibility factor Pi/(n kT), mean over the steps since the last row", pressure_sign},
-        {"pressure", stress, "Pi", "Tr Sigma/3 with the kinetic part n kT, mean over the steps since the last row",
-         pressure_sign},
+        {"pressure", stress, "Pi", "Tr Sigma/3 " + parts + ", mean over the steps since the last row", pressure_sign},
         {"pressure_collision", stress, "Pi_col", "Tr Sigma_col/3, mean over the steps since the last row",
          pressure_sign}};
     for (const char* name : stress_column_names)
@@ -59,6 +71,7 @@ std::vector<SeriesColumn> series_columns(const Scene& scene) {
                        ""});
     columns.push_back({"max_overlap", length, "",
                        "largest overlap of two rods, largest of the steps since the last row", "positive: overlap"});
+    if (springs) append_spring_columns(scene, columns);
     if (scene.motion.self_propulsion != 0.0) append_active_columns(scene, columns);
     if (!scene.output.stress_conventions) return columns;
     for (const char* name : centre_of_mass_column_names)
@@ -80,7 +93,8 @@ std::vector<double> series_row(const Simulation& simulation, const StepSums& sum
     const double volume = simulation.box().volume();
     const double kT = simulation.settings().kT;
     const double density = sums.rods / sums.steps / volume;  // cells may have divided since the last row
-    const Stress stress = assembly_stress(density, kT, (1.0 / sums.steps) * sums.collision_virial, volume);
+    const Stress stress = assembly_stress(density, kT, (1.0 / sums.steps) * sums.collision_virial, volume,
+                                          (1.0 / sums.steps) * sums.spring_virial);
     const NematicOrder order = nematic_order(rods.axis);
     std::vector<double> row = {static_cast<double>(simulation.clock().step),
                                simulation.clock().time,
@@ -96,6 +110,10 @@ std::vector<double> series_row(const Simulation& simulation, const StepSums& sum
     for (const double sum : {sums.contacts, sums.active_contacts, sums.iterations}) row.push_back(sum / sums.steps);
     row.push_back(sums.residual);
     row.push_back(sums.max_overlap);
+    if (!simulation.settings().springs.empty()) {
+        row.push_back(pressure_springs(stress));
+        row.insert(row.end(), stress.springs.m.begin(), stress.springs.m.end());
+    }
     if (sums.active_stress) {
         row.push_back(trace(sums.active_virial) / (3.0 * volume));
         for (const double element : sums.active_virial.m) row.push_back(element / volume);

@@ -16,6 +16,10 @@ inline constexpr std::array<const char*, 9> stress_column_names = {"stress_xx", 
 inline constexpr std::array<const char*, 9> active_stress_column_names = {
     "stress_active_xx", "stress_active_xy", "stress_active_xz", "stress_active_yx", "stress_active_yy",
     "stress_active_yz", "stress_active_zx", "stress_active_zy", "stress_active_zz"};
+/// The same of springs, where there are some.
+inline constexpr std::array<const char*, 9> spring_stress_column_names = {
+    "stress_springs_xx", "stress_springs_xy", "stress_springs_xz", "stress_springs_yx", "stress_springs_yy",
+    "stress_springs_yz", "stress_springs_zx", "stress_springs_zy", "stress_springs_zz"};
 /// The same of two other conventions, with `output.stress_conventions`.
 inline constexpr std::array<const char*, 9> centre_of_mass_column_names = {
     "centre_of_mass_xx", "centre_of_mass_xy", "centre_of_mass_xz", "centre_of_mass_yx", "centre_of_mass_yy",

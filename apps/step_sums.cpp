@@ -12,6 +12,7 @@ void StepSums::add(const StepReport& report) {
     steps += 1.0;
     rods += static_cast<double>(report.rods);
     collision_virial += report.collision_virial;
+    spring_virial += report.spring_virial;
     centre_of_mass_virial += report.centre_of_mass_virial;
     centre_line_virial += report.centre_line_virial;
     contacts += static_cast<double>(report.contacts);
@@ -28,27 +29,33 @@ void StepSums::start_row() {
     fresh.run_max_overlap = run_max_overlap;
     fresh.run_iterations = run_iterations;
     fresh.active_stress = std::move(active_stress);
+    fresh.field = std::move(field);
     *this = std::move(fresh);
 }
 
 std::vector<double> StepSums::to_numbers() const {
     std::vector<double> numbers = {steps,       contacts,        active_contacts, iterations, residual,
                                    max_overlap, run_max_overlap, run_iterations,  rods};
-    for (const Mat3* sum : {&collision_virial, &centre_of_mass_virial, &centre_line_virial})
+    for (const Mat3* sum : {&collision_virial, &spring_virial, &centre_of_mass_virial, &centre_line_virial})
         numbers.insert(numbers.end(), sum->m.begin(), sum->m.end());
-    if (active_stress) {
-        const std::vector<double> positions = active_stress->to_numbers();
-        numbers.insert(numbers.end(), positions.begin(), positions.end());
-    }
+    const auto append = [&](const std::vector<double>& more) {  // 0 numbers where there is no such thing
+        numbers.push_back(static_cast<double>(more.size()));
+        numbers.insert(numbers.end(), more.begin(), more.end());
+    };
+    append(active_stress ? active_stress->to_numbers() : std::vector<double>{});
+    append(field ? field->to_numbers() : std::vector<double>{});
     return numbers;
 }
 
 StepSums StepSums::from_numbers(const std::vector<double>& numbers) {
-    constexpr std::size_t sums_count = 9 + 3 * 9;
-    if (numbers.size() < sums_count)
-        throw InputError({.key = "checkpoint",
-                          .problem = "it holds sums of another version of jostle",
-                          .suggestion = "Start anew with --fresh"});
+    constexpr std::size_t sums_count = 9 + 4 * 9;
+    const auto require = [](bool sound) {
+        if (!sound)
+            throw InputError({.key = "checkpoint",
+                              .problem = "it holds sums of another version of jostle",
+                              .suggestion = "Start anew with --fresh"});
+    };
+    require(numbers.size() >= sums_count);
     StepSums sums;
     sums.steps = numbers[0];
     sums.contacts = numbers[1];
@@ -60,11 +67,20 @@ StepSums StepSums::from_numbers(const std::vector<double>& numbers) {
     sums.run_iterations = numbers[7];
     sums.rods = numbers[8];
     auto from = numbers.begin() + 9;
-    for (Mat3* sum : {&sums.collision_virial, &sums.centre_of_mass_virial, &sums.centre_line_virial}) {
+    for (Mat3* sum :
+         {&sums.collision_virial, &sums.spring_virial, &sums.centre_of_mass_virial, &sums.centre_line_virial}) {
         std::copy(from, from + 9, sum->m.begin());
         from += 9;
     }
-    if (numbers.size() > sums_count)
-        sums.active_stress = ActiveStress::from_numbers(std::span(numbers).subspan(sums_count));
+    std::span<const double> rest = std::span(numbers).subspan(sums_count);
+    const auto take = [&] {
+        require(!rest.empty() && rest[0] < static_cast<double>(rest.size()));
+        const std::span<const double> taken = rest.subspan(1, static_cast<std::size_t>(rest[0]));
+        rest = rest.subspan(1 + taken.size());
+        return taken;
+    };
+    if (const auto positions = take(); !positions.empty()) sums.active_stress = ActiveStress::from_numbers(positions);
+    if (const auto field = take(); !field.empty()) sums.field = StressField::from_numbers(field);
+    require(rest.empty());
     return sums;
 }

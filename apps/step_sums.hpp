@@ -5,13 +5,14 @@
 
 #include "jostle/simulation/step_report.hpp"
 #include "jostle/stress/active_stress.hpp"
+#include "jostle/stress/stress_field.hpp"
 
 /// What is added up over the steps of one row of the series, and over the whole run. Goes into every checkpoint.
 struct StepSums {
     // since the last row
     double steps = 0.0;
     double rods = 0.0;  ///< summed over the steps
-    jostle::Mat3 collision_virial, centre_of_mass_virial, centre_line_virial;
+    jostle::Mat3 collision_virial, spring_virial, centre_of_mass_virial, centre_line_virial;
     double contacts = 0.0;
     double active_contacts = 0.0;
     double iterations = 0.0;
@@ -23,6 +24,8 @@ struct StepSums {
     // of swimmers
     std::optional<jostle::ActiveStress> active_stress;
     jostle::Mat3 active_virial;  ///< V times it, at the step of the row
+    // since the last field
+    std::optional<jostle::StressField> field;
 
     void add(const jostle::StepReport& report);
     void start_row();

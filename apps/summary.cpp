@@ -225,6 +225,11 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
                                               simulation.box().volume() * simulation.settings().kT},
                                  {"unit", stress_unit},
                                  {"definition", "n kT, on the diagonal"}};
+    if (!scene.springs.file.empty()) {
+        summary["pressure_springs"] = described(average_of("pressure_springs"), stress_unit);
+        summary["stress_springs"] =
+            tensor_entry(window_columns(series, first, spring_stress_column_names), stress_unit);
+    }
     if (scene.motion.self_propulsion != 0.0) summarise_active_stress(series, first, stress_unit, summary);
     summary["principal_stresses_collision"] = {{"mean", mean_principal_stresses(stress)}, {"unit", stress_unit}};
     if (scene.output.stress_conventions)
@@ -243,7 +248,8 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     summary["production_rows"] = series.rows() - std::min(first, series.rows());
     summary["max_overlap"] = run_max_overlap / *std::max_element(rods.diameter.begin(), rods.diameter.end());
     Json oracles = Json::object();
-    if (thermal && scene.motion.self_propulsion == 0.0 && !grows && all_alike(rods))
+    const bool free = scene.motion.self_propulsion == 0.0 && scene.springs.file.empty();
+    if (thermal && free && !grows && all_alike(rods))
         oracles["anisotropy"] = anisotropy_oracle(series, first, rods, stress);
     summary["oracles"] = oracles;
     return summary;
@@ -267,6 +273,7 @@ std::string summary_text(const Json& summary) {
     line(entry("Z"), "Z");
     line(entry("pressure"), "pressure");
     line(entry("pressure_collision"), "collision pressure");
+    line(entry("pressure_springs"), "pressure of springs");
     line(entry("pressure_active"), "active pressure");
     line(entry("nematic_order"), "nematic order S");
     line(entry("anisotropy"), "stress anisotropy");

@@ -40,6 +40,7 @@ void verify_growing_files(const std::string& folder, const Checkpoint& checkpoin
         TrajectoryJournal::require_frames(folder + "/trajectory.journal", checkpoint.trajectory_bytes);
     if (checkpoint.contacts_bytes > 0)
         verify_prefix(folder + "/contacts.csv", checkpoint.contacts_bytes, checkpoint.contacts_hash);
+    if (checkpoint.field_bytes > 0) verify_prefix(folder + "/field.csv", checkpoint.field_bytes, checkpoint.field_hash);
     if (checkpoint.lineage_bytes > 0)
         verify_prefix(folder + "/lineage.csv", checkpoint.lineage_bytes, checkpoint.lineage_hash);
 }

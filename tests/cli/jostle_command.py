@@ -17,7 +17,7 @@ JOSTLE = os.environ.get("JOSTLE", "jostle")
 DONE, BAD_INPUT, NUMERICS, DISK, STOPPED = 0, 2, 3, 4, 75
 
 # Files that are the same for every way to the end of a run. trajectory.h5 is compared by its datasets.
-RESULTS = ("scene.toml", "resolved.toml", "series.csv", "series.json", "contacts.csv", "contacts.json", "lineage.csv", "checkpoint",
+RESULTS = ("scene.toml", "resolved.toml", "series.csv", "series.json", "contacts.csv", "contacts.json", "lineage.csv", "field.csv", "field.json", "checkpoint",
            "trajectory.journal", "summary.json")
 TIME_STEP = 0.02
 # Threads that wait for each other by spinning take minutes for seconds of work where other programs use the machine.

@@ -62,6 +62,10 @@ def check_rods(rods):
     for frame in range(frames):
         ids = rods["id/value"][frame][there[frame]]
         assert np.all(np.diff(ids) > 0), f"frame {frame}: ids are not in order"
+    if "stress_collision" in rods:
+        value = check_element(rods["stress_collision"])
+        assert value.shape == (frames, rows, 3, 3) and value.fletcher32
+        assert rods["stress_collision/step"] == rods["position/step"]
     return [int(count) for count in there.sum(axis=1)]
 
 

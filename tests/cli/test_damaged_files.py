@@ -64,9 +64,9 @@ def test_checkpoint_of_another_version(torn_copy):
     path = torn_copy / "run/checkpoint"
     content = bytearray(path.read_bytes()[:-8])
     assert sealed(content) == path.read_bytes(), "the checksum is that of the format"
-    content[8] = 3
+    content[8] = 4
     path.write_bytes(sealed(content))
-    refuse(torn_copy, "run/checkpoint: the checkpoint has format version 3, this jostle reads version 2")
+    refuse(torn_copy, "run/checkpoint: the checkpoint has format version 4, this jostle reads version 3")
 
 
 @pytest.mark.parametrize("left", [0, 7, HEADER, 100, 0.5, -9, -1])

@@ -1,5 +1,6 @@
 #include "jostle/io/checkpoint.hpp"
 
+#include <array>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -13,7 +14,7 @@ namespace {
 
 // The first byte is no text and the last is a newline, so that a file mangled as text no longer matches.
 constexpr std::string_view magic = "\x89JOSTLE\n";
-constexpr std::uint32_t format_version = 2;
+constexpr std::uint32_t format_version = 3;
 constexpr std::size_t header_bytes = 24;
 constexpr std::size_t checksum_bytes = 8;
 constexpr const char* start_again = "Start the run again with --fresh";
@@ -45,6 +46,26 @@ Rods take_rods(ByteReader& reader) {
     return rods;
 }
 
+void put_springs(ByteWriter& writer, const std::vector<Spring>& springs) {
+    writer.put(static_cast<std::uint64_t>(springs.size()));
+    for (const Spring& spring : springs) {  // one by one: what pads a Spring in memory is not defined
+        writer.put(spring.rod_1);
+        writer.put(spring.rod_2);
+        writer.put(std::array{spring.s_1, spring.s_2, spring.rest_length, spring.stiffness});
+        writer.put(spring.image);
+    }
+}
+
+std::vector<Spring> take_springs(ByteReader& reader) {
+    std::vector<Spring> springs;
+    for (auto left = reader.take<std::uint64_t>(); left > 0; --left) {
+        const auto rod_1 = reader.take<std::uint64_t>(), rod_2 = reader.take<std::uint64_t>();
+        const auto [s_1, s_2, rest_length, stiffness] = reader.take<std::array<double, 4>>();
+        springs.push_back({rod_1, rod_2, s_1, s_2, rest_length, stiffness, reader.take<Image>()});
+    }
+    return springs;
+}
+
 std::string payload_of(const Checkpoint& checkpoint) {
     ByteWriter writer;
     writer.put_text(checkpoint.scene);
@@ -53,6 +74,7 @@ std::string payload_of(const Checkpoint& checkpoint) {
     writer.put(checkpoint.box.edges);
     for (const bool periodic : checkpoint.box.periodic) writer.put(static_cast<std::uint8_t>(periodic));
     put_rods(writer, checkpoint.rods);
+    put_springs(writer, checkpoint.springs);
     writer.put(static_cast<std::uint64_t>(checkpoint.accumulators.size()));
     writer.put_elements(checkpoint.accumulators);
     writer.put(checkpoint.series_rows);
@@ -61,6 +83,8 @@ std::string payload_of(const Checkpoint& checkpoint) {
     writer.put(checkpoint.trajectory_bytes);
     writer.put(checkpoint.contacts_bytes);
     writer.put(checkpoint.contacts_hash);
+    writer.put(checkpoint.field_bytes);
+    writer.put(checkpoint.field_hash);
     writer.put(checkpoint.lineage_bytes);
     writer.put(checkpoint.lineage_hash);
     return writer.bytes();
@@ -75,6 +99,7 @@ Checkpoint from_payload(std::string_view payload) {
     checkpoint.box.edges = reader.take<Vec3>();
     for (bool& periodic : checkpoint.box.periodic) periodic = reader.take<std::uint8_t>() != 0;
     checkpoint.rods = take_rods(reader);
+    checkpoint.springs = take_springs(reader);
     const auto accumulator_count = reader.take<std::uint64_t>();
     reader.take_elements(accumulator_count, checkpoint.accumulators);
     checkpoint.series_rows = reader.take<std::uint64_t>();
@@ -83,6 +108,8 @@ Checkpoint from_payload(std::string_view payload) {
     checkpoint.trajectory_bytes = reader.take<std::uint64_t>();
     checkpoint.contacts_bytes = reader.take<std::uint64_t>();
     checkpoint.contacts_hash = reader.take<std::uint64_t>();
+    checkpoint.field_bytes = reader.take<std::uint64_t>();
+    checkpoint.field_hash = reader.take<std::uint64_t>();
     checkpoint.lineage_bytes = reader.take<std::uint64_t>();
     checkpoint.lineage_hash = reader.take<std::uint64_t>();
     if (!reader.empty()) throw std::out_of_range("bytes are left over");
@@ -180,6 +207,21 @@ std::optional<Checkpoint> latest_checkpoint(const std::string& folder) {
         return read_checkpoint(path);
     } catch (const InputError& error) {
         throw refused_file(path, error.parts().problem, way_out(path, previous));
+    }
+}
+
+void require_same_springs(const Checkpoint& checkpoint, std::vector<Spring> springs, const std::string& path) {
+    const auto refuse = [&](const std::string& problem) {
+        throw refused_file(path, problem,
+                           "Restore the file, give another folder with --out, or start again with --fresh");
+    };
+    if (springs.size() != checkpoint.springs.size())
+        refuse("holds " + std::to_string(springs.size()) + " springs, and the run began with " +
+               std::to_string(checkpoint.springs.size()));
+    for (std::size_t l = 0; l < springs.size(); ++l) {
+        springs[l].image = checkpoint.springs[l].image;
+        if (!(springs[l] == checkpoint.springs[l]))
+            refuse("spring " + std::to_string(l + 1) + " is not the one that the run began with");
     }
 }
 

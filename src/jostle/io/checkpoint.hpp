@@ -7,6 +7,7 @@
 
 #include "jostle/rods/box.hpp"
 #include "jostle/rods/rods.hpp"
+#include "jostle/rods/spring.hpp"
 
 namespace jostle {
 
@@ -17,6 +18,7 @@ struct Checkpoint {
     double time = 0.0;                   ///< simulated time
     Box box;                             ///< at that time
     Rods rods;                           ///< at that time, double precision
+    std::vector<Spring> springs;         ///< between them, with the images that they hold
     std::vector<double> accumulators;    ///< running sums of the run; their order is the simulation's own
     std::uint64_t series_rows = 0;       ///< rows of series.csv, without the header
     std::uint64_t series_bytes = 0;      ///< length of series.csv, with the header
@@ -24,6 +26,8 @@ struct Checkpoint {
     std::uint64_t trajectory_bytes = 0;  ///< length of trajectory.journal; 0: the run keeps no trajectory
     std::uint64_t contacts_bytes = 0;    ///< length of contacts.csv; 0: the run keeps none
     std::uint64_t contacts_hash = 0;     ///< checksum of these bytes
+    std::uint64_t field_bytes = 0;       ///< length of field.csv; 0: the run keeps none
+    std::uint64_t field_hash = 0;        ///< checksum of these bytes
     std::uint64_t lineage_bytes = 0;     ///< length of lineage.csv; 0: nothing grows
     std::uint64_t lineage_hash = 0;      ///< checksum of these bytes
 };
@@ -47,6 +51,10 @@ Checkpoint read_checkpoint(const std::string& path);
 /// A damaged FOLDER/checkpoint is an error, not silently passed over: the message says whether the one before is sound
 /// and how to go on from it. Errors: InputError, DiskError.
 std::optional<Checkpoint> latest_checkpoint(const std::string& folder);
+
+/// Refuses a checkpoint of other springs than the file at `path` holds now: the scene only names it. Errors:
+/// InputError.
+void require_same_springs(const Checkpoint& checkpoint, std::vector<Spring> springs, const std::string& path);
 
 /// Refuses a checkpoint of another scene; the message names the first line that differs. Errors: InputError.
 void require_same_scene(const Checkpoint& checkpoint, const std::string& scene, const std::string& folder);

@@ -3,36 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <string_view>
 
+#include "jostle/io/csv_cells.hpp"
 #include "jostle/io/durable_file.hpp"
 
 namespace jostle {
 
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t\r");
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-std::string_view without_quotes(std::string_view text) {
-    const bool quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
-    return quoted ? trimmed(text.substr(1, text.size() - 2)) : text;
-}
-
-void split(std::string_view line, std::vector<std::string_view>& cells) {
-    cells.clear();
-    for (std::size_t begin = 0;;) {
-        const auto end = line.find(',', begin);
-        cells.push_back(without_quotes(trimmed(line.substr(begin, end - begin))));
-        if (end == std::string_view::npos) return;
-        begin = end + 1;
-    }
-}
 
 /// "# length_unit: um", "# force_unit: pN"; any other comment says nothing.
 void read_comment(std::string_view line, TableUnits& units) {
@@ -53,7 +32,7 @@ struct Target {
 
 std::vector<Target> read_header(Table& table, std::string_view line, int number, const KnownColumns& known) {
     std::vector<std::string_view> cells;
-    split(line, cells);
+    split_cells(line, cells);
     std::vector<Target> targets;
     for (const std::string_view cell : cells) {
         Target target{std::string(cell)};
@@ -73,10 +52,7 @@ std::vector<Target> read_header(Table& table, std::string_view line, int number,
 double number_in(std::string_view cell, const std::string& name, Table& table) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     if (cell.empty()) return none;
-    const std::string_view digits = cell.size() > 1 && cell.front() == '+' ? cell.substr(1) : cell;
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error == std::errc{} && end == digits.data() + digits.size() && std::isfinite(value)) return value;
+    if (const auto value = number_of_cell(cell)) return *value;
     table.problems.add(table.rows, fmt::format("{} = \"{}\" is not a finite number", name, cell));
     return none;
 }
@@ -102,16 +78,14 @@ Table read_csv_table(const std::string& path, const KnownColumns& known) {
     std::vector<Target> targets;
     std::vector<std::string_view> cells;
     for (int number = 1; !rest.empty(); ++number) {
-        const auto end = rest.find('\n');
-        const std::string_view line = trimmed(rest.substr(0, end));
-        rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
+        const std::string_view line = next_line(rest);
         if (line.empty()) continue;
         if (line.front() == '#') {
             read_comment(line, table.units);
         } else if (targets.empty()) {
             targets = read_header(table, line, number, known);
         } else {
-            split(line, cells);
+            split_cells(line, cells);
             table.problems.line.push_back(number);
             add_row(table, targets, cells);
         }

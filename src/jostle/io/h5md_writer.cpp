@@ -20,6 +20,7 @@ constexpr std::int64_t no_rod = -1;
 struct JournalShape {
     hsize_t frames = 0;
     hsize_t largest_count = 0;
+    bool has_stress = false;
     bool box_varies = false;
     Box box;  // of the first frame
 };
@@ -27,6 +28,7 @@ struct JournalShape {
 JournalShape shape_of(const std::string& journal_path) {
     JournalShape shape;
     TrajectoryReader reader(journal_path);
+    shape.has_stress = reader.content() == TrajectoryJournal::Content::rods_and_stress;
     for (TrajectoryFrame frame; reader.next(frame); ++shape.frames) {
         if (shape.frames == 0) shape.box = frame.box;
         shape.box_varies = shape.box_varies || !(frame.box.edges == shape.box.edges);
@@ -91,7 +93,11 @@ void write_particles(hid_t file, const std::string& journal_path, const JournalS
     FrameDataset length = position.beside(rods, "length", H5T_NATIVE_FLOAT, {t, n}, &nan, unit);
     FrameDataset diameter = position.beside(rods, "diameter", H5T_NATIVE_FLOAT, {t, n}, &nan, unit);
     FrameDataset id = position.beside(rods, "id", H5T_NATIVE_INT64, {t, n}, &no_rod, "");
-    std::optional<FrameDataset> edges;
+    std::optional<FrameDataset> stress, edges;
+    const double no_stress = std::numeric_limits<double>::quiet_NaN();
+    if (shape.has_stress)
+        stress = position.beside(rods, "stress_collision", H5T_NATIVE_DOUBLE, {t, n, 3, 3}, &no_stress,
+                                 attributes.energy_unit);
     if (shape.box_varies) edges = position.beside(box, "edges", H5T_NATIVE_DOUBLE, {t, 3}, nullptr, unit);
 
     TrajectoryReader reader(journal_path);
@@ -104,6 +110,7 @@ void write_particles(hid_t file, const std::string& journal_path, const JournalS
         length.write(k, count, frame.length.data());
         diameter.write(k, count, frame.diameter.data());
         id.write(k, count, frame.id.data());  // ids count from 0 and stay far below 2^63
+        if (stress) stress->write(k, count, frame.stress.data());
         if (edges) edges->write(k, 3, &frame.box.edges);
     }
 }

@@ -20,6 +20,7 @@ struct H5mdAttributes {
     std::string length_unit;  ///< factors separated by spaces, signed powers: "um"; empty: no unit is written
     std::string time_unit;
     std::string stress_unit;
+    std::string energy_unit;  ///< of stress times volume
 };
 
 /// Makes an H5MD 1.1 file (P. de Buyl et al., Comput. Phys. Commun. 185, 1546 (2014)) from a journal.

@@ -7,19 +7,25 @@
 namespace jostle {
 namespace {
 
+using Content = TrajectoryJournal::Content;
+
 constexpr std::string_view magic = "\x89JTRAJ\r\n";
 constexpr std::uint32_t format_version = 1;
 constexpr std::uint64_t file_header_bytes = 16;
 constexpr std::array<char, 8> frame_mark = {'F', 'R', 'A', 'M', 'E', 0, 0, 0};
 constexpr std::uint64_t frame_header_bytes = 72;
-constexpr std::uint64_t rod_bytes = 52;
+constexpr std::uint64_t rod_bytes = 52, stress_bytes = 72;
 constexpr std::uint64_t checksum_bytes = 8;
 constexpr const char* put_back = "Put the file back, or start again with --fresh";
 
-std::string file_header() {
+std::uint64_t bytes_per_rod(Content content) {
+    return content == Content::rods ? rod_bytes : rod_bytes + stress_bytes;
+}
+
+std::string file_header(Content content) {
     ByteWriter writer;
     writer.put(format_version);
-    writer.put(std::uint32_t{0});
+    writer.put(static_cast<std::uint32_t>(content));
     return std::string(magic) + writer.bytes();
 }
 
@@ -46,13 +52,14 @@ std::uint64_t take_header(ByteReader& reader, TrajectoryFrame& frame) {
     return reader.take<std::uint64_t>();
 }
 
-void take_rods(ByteReader& reader, std::uint64_t count, TrajectoryFrame& frame) {
+void take_rods(ByteReader& reader, std::uint64_t count, Content content, TrajectoryFrame& frame) {
     reader.take_elements(count, frame.id);
     reader.take_elements(count, frame.centre);
     reader.take_elements(count, frame.image);
     reader.take_elements(count, frame.axis);
     reader.take_elements(count, frame.length);
     reader.take_elements(count, frame.diameter);
+    reader.take_elements(content == Content::rods_and_stress ? count : 0, frame.stress);
 }
 
 /// Whether the last 8 of `bytes` are the checksum of those before.
@@ -63,16 +70,16 @@ bool sound(std::string_view bytes) {
 
 }  // namespace
 
-TrajectoryJournal TrajectoryJournal::create(const std::string& path) {
-    TrajectoryJournal journal{AppendFile(path)};
+TrajectoryJournal TrajectoryJournal::create(const std::string& path, Content content) {
+    TrajectoryJournal journal{AppendFile(path), content};
     journal.file_.truncate_to(0);
-    journal.file_.write_all(file_header());
+    journal.file_.write_all(file_header(content));
     return journal;
 }
 
 TrajectoryJournal TrajectoryJournal::resume(const std::string& path, std::uint64_t bytes) {
     require_frames(path, bytes);
-    TrajectoryJournal journal{AppendFile(path)};
+    TrajectoryJournal journal{AppendFile(path), TrajectoryReader(path).content()};
     journal.file_.truncate_to(bytes);
     return journal;
 }
@@ -89,7 +96,14 @@ void TrajectoryJournal::require_frames(const std::string& path, std::uint64_t by
                            put_back);
 }
 
-void TrajectoryJournal::append(std::uint64_t step, double time, const Box& box, const Rods& rods) {
+void TrajectoryJournal::append(std::uint64_t step, double time, const Box& box, const Rods& rods,
+                               const std::vector<Mat3>& stress) {
+    const std::size_t needed = content_ == Content::rods ? 0 : rods.size();
+    if (stress.size() != needed)
+        throw InputError({.key = "stress",
+                          .value = std::to_string(stress.size()) + " rows",
+                          .problem = "does not fit the journal",
+                          .allowed = std::to_string(needed) + " rows"});
     frame_.clear();
     frame_.put(frame_mark);
     frame_.put(step);
@@ -104,15 +118,18 @@ void TrajectoryJournal::append(std::uint64_t step, double time, const Box& box, 
     put_single(frame_, rods.axis);
     put_single(frame_, rods.length);
     put_single(frame_, rods.diameter);
+    frame_.put_elements(stress);
     frame_.put(checksum(frame_.bytes()));
     file_.write_all(frame_.bytes());
 }
 
 TrajectoryReader::TrajectoryReader(const std::string& path) : file_(path), offset_(file_header_bytes) {
-    const std::string expected = file_header();
     file_.read_up_to(file_header_bytes, buffer_);
-    if (buffer_ == expected) return;
-    if (expected.starts_with(buffer_))
+    for (const Content content : {Content::rods, Content::rods_and_stress}) {
+        content_ = content;
+        if (buffer_ == file_header(content)) return;
+    }
+    if (file_header(Content::rods).starts_with(buffer_))
         throw refused_file(path,
                            "the trajectory is truncated: it has " + std::to_string(buffer_.size()) +
                                " bytes, its header alone has " + std::to_string(file_header_bytes),
@@ -142,14 +159,14 @@ bool TrajectoryReader::next(TrajectoryFrame& frame) {
     const std::uint64_t count = take_header(header, frame);
     if (frames_ > 0 && frame.step <= last_step_) throw damaged("is not later than the frame before it");
 
-    if (count > (file_.size() - offset_) / rod_bytes) return false;
-    const std::uint64_t rest_bytes = count * rod_bytes + checksum_bytes;
+    if (count > (file_.size() - offset_) / bytes_per_rod(content_)) return false;
+    const std::uint64_t rest_bytes = count * bytes_per_rod(content_) + checksum_bytes;
     file_.read_up_to(rest_bytes, buffer_);
     if (buffer_.size() < rest_bytes) return false;
     whole += buffer_;
     if (!sound(whole)) throw damaged("does not match its checksum");
     ByteReader rods(buffer_);
-    take_rods(rods, count, frame);
+    take_rods(rods, count, content_, frame);
     offset_ += frame_header_bytes + rest_bytes;
     ++frames_;
     last_step_ = frame.step;

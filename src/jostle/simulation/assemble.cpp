@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <unordered_map>
 
 #include "jostle/contact/wca_forces.hpp"
 #include "jostle/error/input_error.hpp"
@@ -120,6 +121,21 @@ namespace {
 /// Ids at the start are 0 ... count - 1, or what a file holds.
 constexpr int founder_bits_of_file = 31;
 
+void set_springs(const Scene& scene, const Rods& rods, const Mobility& mobility, std::vector<Spring> springs,
+                 SimulationSettings& settings) {
+    if (springs.empty() && !scene.springs.file.empty())
+        throw InputError({.key = "springs.file", .value = scene.springs.file, .problem = "the springs were not read"});
+    std::unordered_map<std::uint64_t, std::size_t> rows;
+    if (!springs.empty())
+        for (std::size_t i = 0; i < rods.size(); ++i) rows[rods.id[i]] = i;
+    const auto mobility_of = [&](std::uint64_t id) {
+        const auto found = rows.find(id);
+        return found == rows.end() ? RodMobility{} : mobility.of_rod(found->second);
+    };
+    require_slow_springs(scene, spring_relaxation(springs, mobility_of, settings.time_step), settings.time_step);
+    settings.springs = std::move(springs);
+}
+
 void set_growth(const Scene& scene, SimulationSettings& settings) {
     settings.growth = scene.growth;
     settings.founder_bits = scene.rods.start == StartKind::file
@@ -129,7 +145,24 @@ void set_growth(const Scene& scene, SimulationSettings& settings) {
 
 }  // namespace
 
-Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock) {
+std::optional<StressField> make_field(const Scene& scene, const Box& box) {
+    if (scene.output.field_every == 0) return std::nullopt;
+    const double longest = scene.growth.rate > 0.0 ? scene.growth.division_length : scene.rods.length;
+    return StressField(box, scene.output.field_spacing.value_or(longest + scene.rods.diameter));
+}
+
+void require_slow_springs(const Scene& scene, double relaxation, double time_step) {
+    if (relaxation <= 1.0) return;
+    throw InputError({.key = "springs.file",
+                      .value = scene.springs.file,
+                      .problem = fmt::format("springs are too stiff for the time step: in one of {:.4g} they may lose "
+                                             "{:.4g} times their stretch (2 dt times stiffness times mobility)",
+                                             time_step, relaxation),
+                      .allowed = fmt::format("at most 1, with a step of at most {:.4g}", time_step / relaxation),
+                      .suggestion = "Use a shorter time.step or softer springs"});
+}
+
+Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock, std::vector<Spring> springs) {
     auto mobility = make_mobility(scene, rods);
     SimulationSettings settings;
     settings.seed = scene.seed;
@@ -143,6 +176,7 @@ Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock) 
         settings.range = (wca_range - 1.0) * *std::max_element(rods.diameter.begin(), rods.diameter.end());
     }
     settings.stress_conventions = scene.output.stress_conventions;
+    settings.collision_moments = scene.output.stress_per_rod || scene.output.field_every > 0;
     settings.method = scene.solver.method;
     const bool paper = scene.solver.residual == ResidualKind::paper;
     settings.lcp.residual = paper ? LcpResidual::paper : LcpResidual::length;
@@ -152,6 +186,7 @@ Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock) 
                              : scene.solver.step_rule == StepRule::bb2 ? BarzilaiBorwein::bb2
                                                                        : BarzilaiBorwein::alternating;
     if (scene.growth.rate > 0.0) set_growth(scene, settings);
+    set_springs(scene, rods, *mobility, std::move(springs), settings);
     std::vector<std::unique_ptr<Motion>> motions;
     if (settings.kT > 0.0) motions.push_back(std::make_unique<BrownianMotion>(settings.kT, *mobility));
     if (scene.motion.self_propulsion != 0.0) motions.push_back(std::make_unique<SelfPropulsion>(swimming_of(scene)));

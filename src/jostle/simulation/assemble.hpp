@@ -6,6 +6,7 @@
 #include "jostle/motion/self_propulsion.hpp"
 #include "jostle/simulation/scene.hpp"
 #include "jostle/simulation/simulation.hpp"
+#include "jostle/stress/stress_field.hpp"
 
 namespace jostle {
 
@@ -37,7 +38,15 @@ double persistence_time(const Scene& scene, const Mobility& mobility, std::size_
 /// infinite.
 double active_stress_lag(const Scene& scene, const Mobility& mobility, std::size_t rod_count);
 
-/// A simulation of a scene that starts at, or goes on from, the given state.
-Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock);
+/// The stress field that a scene asks for, without steps, if any. Throws InputError where its cells are too many.
+std::optional<StressField> make_field(const Scene& scene, const Box& box);
+
+/// Throws InputError (springs.file) if springs would lose more than all of their stretch in a step, by
+/// `spring_relaxation`.
+void require_slow_springs(const Scene& scene, double relaxation, double time_step);
+
+/// A simulation of a scene that starts at, or goes on from, the given state. `springs`: of `scene.springs.file`, with
+/// their images. Errors: InputError, also if that file is named and there are no springs.
+Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock, std::vector<Spring> springs = {});
 
 }  // namespace jostle

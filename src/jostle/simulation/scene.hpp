@@ -77,6 +77,11 @@ struct Scene {
 
     GrowthLaw growth;  // rate 0: none
 
+    struct SpringsTable {
+        std::string file;  // relative to the scene's folder; empty: no springs
+        bool operator==(const SpringsTable&) const = default;
+    } springs;
+
     struct ContactTable {
         ContactModel model = ContactModel::hard;  // "hard": the contact problem; "wca": a soft potential
         std::optional<double> energy;             // of the potential; "auto" (empty): kT
@@ -109,6 +114,9 @@ struct Scene {
         std::uint64_t checkpoint_every = 1000;    // steps
         bool contacts = false;                    // write the active contacts of every series step
         bool stress_conventions = false;          // other conventions of the collision stress, too
+        bool stress_per_rod = false;              // write the stress of every rod with every frame
+        std::uint64_t field_every = 0;            // steps that a stress field is the mean of; 0: none
+        std::optional<double> field_spacing;      // least edge of its cells; "auto" (empty): length + diameter of a rod
         std::optional<double> active_stress_lag;  // time; "auto" (empty): 5 persistence times of a free rod
         bool operator==(const Output&) const = default;
     } output;

@@ -98,6 +98,7 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("growth", "stall_force", scene.growth.stall_force, Quantity{dim::force, positive});
     visit("growth", "death_rate", scene.growth.death_rate, Quantity{dim::rate, zero_or_positive});
     visit("growth", "division_every", scene.growth.division_every, Count{1});
+    visit("springs", "file", scene.springs.file, Plain{});
     visit("contact", "model", scene.contact.model, Plain{});
     visit("contact", "energy", scene.contact.energy, Quantity{dim::energy, positive, true});
     visit("contact", "brownian_correction", scene.contact.brownian_correction, Plain{});
@@ -117,6 +118,9 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("output", "checkpoint_every", scene.output.checkpoint_every, Count{1});
     visit("output", "contacts", scene.output.contacts, Plain{});
     visit("output", "stress_conventions", scene.output.stress_conventions, Plain{});
+    visit("output", "stress_per_rod", scene.output.stress_per_rod, Plain{});
+    visit("output", "field_every", scene.output.field_every, Count{0});
+    visit("output", "field_spacing", scene.output.field_spacing, Quantity{dim::length, positive, true});
     visit("output", "active_stress_lag", scene.output.active_stress_lag, Quantity{dim::time, positive, true});
 }
 

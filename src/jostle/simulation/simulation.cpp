@@ -45,11 +45,22 @@ Simulation::Simulation(Box box, Rods rods, Clock clock, std::unique_ptr<Mobility
         throw InputError({.key = "time.step",
                           .value = std::to_string(settings_.time_step),
                           .problem = "the time step must be positive"});
+    if (!settings_.springs.empty()) add_springs();
     if (settings_.growth) {
         growth_.emplace(*settings_.growth, settings_.seed, settings_.founder_bits);
         if (rods_.cycle.empty()) growth_->found(rods_);
     }
     take_over_rods();
+}
+
+void Simulation::add_springs() {
+    if (settings_.growth)
+        throw InputError({.key = "springs.file",
+                          .problem = "springs hold rods that stay, and cells divide and die",
+                          .suggestion = "Remove [springs] or [growth]"});
+    auto springs = std::make_unique<Springs>(settings_.springs, box_, *mobility_);
+    springs_ = springs.get();
+    motions_.push_back(std::move(springs));
 }
 
 /// Makes everything that belongs to rows anew.

@@ -8,10 +8,11 @@
 #include "jostle/contact/collision_search.hpp"
 #include "jostle/growth/growth.hpp"
 #include "jostle/mobility/mobility.hpp"
-#include "jostle/motion/motion.hpp"
+#include "jostle/motion/springs.hpp"
 #include "jostle/rods/box.hpp"
 #include "jostle/simulation/contact_solver.hpp"
 #include "jostle/simulation/step_report.hpp"
+#include "jostle/stress/collision_moments.hpp"
 
 namespace jostle {
 
@@ -31,6 +32,8 @@ struct SimulationSettings {
     SolverMethod method = SolverMethod::automatic;
     LcpSettings lcp;                  ///< tolerance as a length
     bool stress_conventions = false;  ///< other conventions of the stress are measured, too
+    bool collision_moments = false;   ///< the parts of the collision stress are kept, contact by contact
+    std::vector<Spring> springs;      ///< between rods that stay: nothing may grow
     std::optional<GrowthLaw> growth;
     int founder_bits = 0;  ///< ids of the rods at the start are below 2^founder_bits
 };
@@ -60,14 +63,18 @@ public:
     /// Of the last step, with the gaps before it.
     const Contacts& contacts() const { return contacts_; }
     const ContactSolution& contact_solution() const { return solution_; }
+    /// The parts of its collision stress, if the settings ask for them.
+    const CollisionMoments& collision_moments() const { return moments_; }
 
 private:
+    void add_springs();
     void renumber();
     void find_known_velocity();
     void find_contacts(StepReport& report);
     void solve_contacts(StepReport& report);
     void repel(StepReport& report);
     void measure_stress(StepReport& report);
+    void measure_spring_stress(StepReport& report);
     void advance();
     void grow();
 
@@ -78,6 +85,7 @@ private:
     bool add_missed_contacts(const ContactMatrix& contact_matrix, const ContactSolution& solution, bool final);
     bool corrects_brownian_motion() const { return settings_.brownian_correction && settings_.kT > 0.0; }
     const std::vector<Vec3>& turned_half_way();
+    Vec3 turned_by_springs(std::uint32_t row) const;
     std::pair<Vec3, Vec3> pushed(std::uint32_t row, const ContactVelocity& velocity) const;
 
     Box box_;
@@ -86,12 +94,14 @@ private:
     std::unique_ptr<Mobility> mobility_;
     std::vector<std::unique_ptr<Motion>> motions_;
     SimulationSettings settings_;
+    const Springs* springs_ = nullptr;  ///< among the motions; none: nullptr
     std::optional<Growth> growth_;
     std::vector<LineageEvent> lineage_;
 
     CollisionSearch search_;
     std::vector<double> shift_;         ///< (N) upper bound of each rod's part in the shift of a gap
     Velocities known_;                  ///< (N) U_known
+    Velocities by_springs_;             ///< (N) the springs' part of it; (0) without springs
     std::vector<double> displacement_;  ///< (N) by it, of any point of the rod, at most
     struct {
         std::vector<Vec3> centre, axis;
@@ -99,6 +109,7 @@ private:
     std::vector<Push> pushes_;  ///< (N) by contact forces; all 0 between steps
     Contacts contacts_;
     ContactSolution solution_;
+    CollisionMoments moments_;
 };
 
 }  // namespace jostle

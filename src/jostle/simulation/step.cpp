@@ -10,6 +10,7 @@
 #include "jostle/simulation/simulation.hpp"
 #include "jostle/simulation/time_step_correction.hpp"
 #include "jostle/stress/collision_stress.hpp"
+#include "jostle/stress/spring_stress.hpp"
 
 namespace jostle {
 
@@ -51,6 +52,7 @@ StepReport Simulation::step() {
         pushes_.assign(rods_.size(), {});
         return report;
     }
+    measure_spring_stress(report);
     measure_stress(report);
     timer.finish(StepPhase::measure_stress);
     advance();
@@ -178,6 +180,9 @@ void Simulation::measure_stress(StepReport& report) {
     });
     report.collision_virial =
         sum_of_pair_stresses(contacts_, solution_.gamma, rods_, axis, {solution_.rods, torque}, distance);
+    if (settings_.collision_moments)
+        moments_ = jostle::collision_moments(contacts_, solution_.gamma, rods_, box_, axis, {solution_.rods, torque},
+                                             distance);
     if (settings_.stress_conventions) {
         report.centre_of_mass_virial = centre_of_mass_virial(contacts_, solution_.gamma, rods_, axis, distance);
         report.centre_line_virial = centre_line_virial(contacts_, solution_.gamma, rods_, distance);
@@ -186,16 +191,43 @@ void Simulation::measure_stress(StepReport& report) {
         solution_.gamma.size(), [&](std::size_t l) { return solution_.gamma[l] > 0.0 ? std::size_t{1} : 0; });
 }
 
-// Axes after the known motion and one half of what contact forces turn them; of the rods in contact, those that matter.
-// `advance` overwrites them.
+// Axes after the known motion and one half of what contact forces (and springs) turn them; of the rods in contact,
+// those that matter. `advance` overwrites them.
 const std::vector<Vec3>& Simulation::turned_half_way() {
     parallel_for(solution_.rods.size(), [&](std::size_t place) {
         const std::uint32_t row = solution_.rods[place];
         const Vec3& axis = rods_.axis[row];
         const Vec3 collision = cross(axis, solution_.velocities[place].turning);
-        moved_.axis[row] = rotated(axis, settings_.time_step * (known_.angular[row] + 0.5 * collision));
+        const Vec3 known = known_.angular[row] - 0.5 * turned_by_springs(row);
+        moved_.axis[row] = rotated(axis, settings_.time_step * (known + 0.5 * collision));
     });
     return moved_.axis;
+}
+
+// Angular velocity that springs give to a rod.
+Vec3 Simulation::turned_by_springs(std::uint32_t row) const {
+    return springs_ == nullptr ? Vec3{} : by_springs_.angular[row];
+}
+
+// Theory 1, eq. (1.16): the forces of springs as the step began, with moments half way through what springs and
+// contacts do in it (eq. 1.17).
+void Simulation::measure_spring_stress(StepReport& report) {
+    if (springs_ == nullptr) return;
+    const std::vector<Spring>& springs = settings_.springs;
+    by_springs_ = springs_->velocities(rods_);
+    Velocities pushed = by_springs_;
+    parallel_for(solution_.rods.size(), [&](std::size_t place) {
+        const std::uint32_t row = solution_.rods[place];
+        pushed.linear[row] += solution_.velocities[place].centre;
+        pushed.angular[row] += cross(rods_.axis[row], solution_.velocities[place].turning);
+    });
+    std::vector<Vec3> centre(rods_.size()), axis(rods_.size());
+    const double half_step = 0.5 * settings_.time_step;
+    parallel_for(rods_.size(), [&](std::size_t i) {
+        centre[i] = rods_.centre[i] + half_step * pushed.linear[i];
+        axis[i] = rotated(rods_.axis[i], half_step * pushed.angular[i]);
+    });
+    report.spring_virial = sum_of_spring_stresses(springs, spring_pulls(springs, rods_, box_), rods_, centre, axis);
 }
 
 // Theory 2.4: q^{k+1} = q^k + dt (U_known + U_C), axes by the exponential map.

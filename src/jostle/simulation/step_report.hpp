@@ -28,8 +28,9 @@ struct StepReport {
     std::size_t active_contacts = 0;  ///< with gamma > 0
     double max_overlap = 0.0;         ///< largest overlap of the rods when the step began, a length
     Mat3 collision_virial;            ///< sum over contacts of theory, eq. (1.1): V times the collision stress
-    /// The same in other conventions, if asked for: the sums over contacts of (r_j - r_i) F, centre of mass to centre
-    /// of mass, and of (r_j + a_j - r_i - a_i) F, from centre line to centre line.
+    Mat3 spring_virial;               ///< the same of springs (theory, eq. 1.16); 0 where there are none
+    /// The collision stress in other conventions, if asked for: the sums over contacts of (r_j - r_i) F, centre of mass
+    /// to centre of mass, and of (r_j + a_j - r_i - a_i) F, from centre line to centre line.
     Mat3 centre_of_mass_virial, centre_line_virial;
     std::array<double, step_phase_count> seconds{};
 };

@@ -128,6 +128,9 @@ void check_unused(const Scene& scene) {
             value = text(scene.rods.length_deviation);
         if (unused.key == "rods.diameter_deviation" && scene.rods.diameter_deviation != 0.0)
             value = text(scene.rods.diameter_deviation);
+        if (unused.key == "output.field_spacing" && scene.output.field_spacing)
+            value = text(*scene.output.field_spacing);
+        if (unused.key == "output.stress_per_rod" && scene.output.stress_per_rod) value = "true";
         if (unused.key == "contact.energy" && scene.contact.energy) value = text(*scene.contact.energy);
         if (unused.key == "contact.range" && scene.contact.range) value = text(*scene.contact.range);
         for (const auto& [key, given] : motion_values(scene))
@@ -241,6 +244,13 @@ void check_growth(const Scene& scene) {
             "Or use model = \"finite_aspect_ratio\", which holds for every L/D");
 }
 
+void check_springs(const Scene& scene) {
+    if (!scene.springs.file.empty() && scene.growth.rate > 0.0)
+        refuse("springs.file", scene.springs.file,
+               "springs hold rods that stay, and with growth.rate cells divide and die", "no springs, or no growth",
+               "Remove [springs] or [growth]");
+}
+
 void check_solver(const Scene& scene) {
     if (scene.contact.model == ContactModel::wca) {
         if (!scene.contact.energy && scene.fluid.kT == 0.0)
@@ -307,6 +317,7 @@ void validate(const Scene& scene) {
     check_motion(scene);
     check_mobility(scene);
     check_growth(scene);
+    check_springs(scene);
     check_solver(scene);
     check_time(scene);
 }
@@ -409,6 +420,14 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
              {"growth.rate_deviation", "growth.division", "growth.division_length", "growth.division_deviation",
               "growth.daughters", "growth.stall_force", "growth.death_rate", "growth.division_every"})
             unused.push_back({key, "is not used without growth.rate", "Add rate under [growth], or remove it"});
+    if (scene.output.trajectory_every == 0)
+        unused.push_back({"output.stress_per_rod", "is not used without output.trajectory_every: there are no frames",
+                          "Set trajectory_every, or remove it"});
+    if (scene.output.field_every == 0)
+        unused.push_back({"output.field_spacing", "is not used without output.field_every: there is no field",
+                          "Set field_every, or remove it"});
+    if (scene.springs.file.empty())
+        unused.push_back({"springs.file", "names no file", "Name a CSV file of springs, or remove [springs]"});
     if (start == StartKind::file && scene.rods.count == 0)
         unused.push_back({"rods.count", with + ": the file tells", "Remove count"});
     return unused;

@@ -37,6 +37,18 @@ Mat3 virial(const Contacts& contacts, std::span<const double> gamma, Separation&
 
 }  // namespace
 
+void require_moment_rows(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
+                         std::span<const Vec3> axis, const RodTorques& torques) {
+    require_rows("gamma", gamma.size(), contacts.size(), "contact");
+    require_rows("axis", axis.size(), rods.size(), "rod");
+    require_rows("torque", torques.torque.size(), torques.rods.size(), "rod");
+}
+
+Vec3 centre_separation(const Contact& contact, const Rods& rods, std::span<const Vec3> axis, ContactDistance distance) {
+    return contact.arm_i * axis[contact.i] + between_centre_lines(contact, rods, distance) -
+           contact.arm_j * axis[contact.j];
+}
+
 Mat3 sum_of_pair_stresses(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
                           std::span<const Vec3> axis, const RodTorques& torques, ContactDistance distance) {
     return centre_of_mass_virial(contacts, gamma, rods, axis, distance) + geometric_stress(rods, axis, torques);
@@ -45,10 +57,8 @@ Mat3 sum_of_pair_stresses(const Contacts& contacts, std::span<const double> gamm
 Mat3 centre_of_mass_virial(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
                            std::span<const Vec3> axis, ContactDistance distance) {
     require_rows("axis", axis.size(), rods.size(), "rod");
-    return virial(contacts, gamma, [&](const Contact& contact) {
-        return contact.arm_i * axis[contact.i] + between_centre_lines(contact, rods, distance) -
-               contact.arm_j * axis[contact.j];
-    });
+    return virial(contacts, gamma,
+                  [&](const Contact& contact) { return centre_separation(contact, rods, axis, distance); });
 }
 
 Mat3 centre_line_virial(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,

@@ -34,8 +34,14 @@ struct RodTorques {
 Mat3 sum_of_pair_stresses(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
                           std::span<const Vec3> axis, const RodTorques& torques, ContactDistance distance);
 
-/// Sum over contacts of (r_j - r_i) F, with r_j - r_i = arm_i n_i + distance normal - arm_j n_j and F = gamma normal on
-/// rod j.
+/// r_j - r_i of a contact: arm_i n_i + distance normal - arm_j n_j. Sizes are not checked.
+Vec3 centre_separation(const Contact& contact, const Rods& rods, std::span<const Vec3> axis, ContactDistance distance);
+
+/// Throws InputError unless there is one force a contact, one axis a rod, and one torque a row.
+void require_moment_rows(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
+                         std::span<const Vec3> axis, const RodTorques& torques);
+
+/// Sum over contacts of (r_j - r_i) F, with r_j - r_i = `centre_separation` and F = gamma normal on rod j.
 ///
 /// `gamma`: one force a contact. Throws InputError if their number is wrong.
 Mat3 centre_of_mass_virial(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,

@@ -23,11 +23,13 @@ void require(bool allowed, const char* key, double value, const char* range, con
 
 }  // namespace
 
-Stress assembly_stress(double number_density, double kT, const Mat3& sum_of_pair_stresses, double volume) {
+Stress assembly_stress(double number_density, double kT, const Mat3& sum_of_pair_stresses, double volume,
+                       const Mat3& sum_of_spring_stresses) {
     require(number_density >= 0.0, "number_density", number_density, "finite, >= 0", "no density");
     require(kT >= 0.0, "kT", kT, "finite, >= 0", "no temperature");
     require(volume > 0.0, "volume", volume, "finite, > 0", "no volume to refer the stress to");
-    return {(number_density * kT) * identity(), (1.0 / volume) * sum_of_pair_stresses};
+    return {(number_density * kT) * identity(), (1.0 / volume) * sum_of_pair_stresses,
+            (1.0 / volume) * sum_of_spring_stresses};
 }
 
 double pressure(const Stress& stress) {
@@ -36,6 +38,10 @@ double pressure(const Stress& stress) {
 
 double pressure_collision(const Stress& stress) {
     return trace(stress.collision) / 3.0;
+}
+
+double pressure_springs(const Stress& stress) {
+    return trace(stress.springs) / 3.0;
 }
 
 double compressibility(const Stress& stress, double number_density, double kT) {

@@ -6,31 +6,38 @@
 
 namespace jostle {
 
-/// The stress of an assembly, Sigma = n kT I + (1/V) sum sigma (theory, eq. 1.2); positive in compression; energy per
-/// volume.
+/// The stress of an assembly, Sigma = n kT I + (1/V) sum sigma (theory, eq. 1.2), over contacts and springs; positive
+/// in compression; energy per volume.
 ///
 /// Departure from the paper: it prints the collision part as a mean over the rods (an energy); it is a sum over the
 /// volume.
 struct Stress {
     Mat3 kinetic;    ///< n kT I
     Mat3 collision;  ///< (1/V) sum of the pair stresses; all 9 entries kept
+    Mat3 springs;    ///< the same of springs
 
-    Mat3 total() const { return kinetic + collision; }
+    Mat3 total() const { return kinetic + collision + springs; }
 };
 
-/// Stress from the number density n = N/V, the temperature kT and the sum of the pair stresses in the volume V.
+/// Stress from the number density n = N/V, the temperature kT and the sums of the pair stresses of contacts, and of
+/// springs, in the volume V.
 ///
 /// Throws InputError unless n >= 0, kT >= 0, V > 0, all finite.
-Stress assembly_stress(double number_density, double kT, const Mat3& sum_of_pair_stresses, double volume);
+Stress assembly_stress(double number_density, double kT, const Mat3& sum_of_pair_stresses, double volume,
+                       const Mat3& sum_of_spring_stresses = {});
 
-/// Pi = Tr Sigma/3.
+/// Pi = Tr Sigma/3, with all parts.
 double pressure(const Stress& stress);
 
 /// Pi_col = Tr Sigma_col/3, the part of the pressure from collisions.
 double pressure_collision(const Stress& stress);
 
-/// Z = Pi/(n kT) = 1 + Pi_col/(n kT). Throws InputError unless n kT > 0: without thermal motion there is no Z.
+/// Z = Pi/(n kT): 1 + Pi_col/(n kT), and with springs + Pi_spr/(n kT). Throws InputError unless n kT > 0: without
+/// thermal motion there is no Z.
 double compressibility(const Stress& stress, double number_density, double kT);
+
+/// Pi_spr = Tr Sigma_spr/3, the part of the pressure from springs; negative where they pull.
+double pressure_springs(const Stress& stress);
 
 /// Eigenvalues of the symmetric part of a stress, ascending.
 std::array<double, 3> principal_stresses(const Mat3& stress);

@@ -21,8 +21,8 @@ using namespace jostle;
 namespace {
 
 const H5mdAttributes attributes = {
-    "A. Student", "1.2.3",  "seed = 5  # \xc3\xa9\n", "seed = 5\n", 5, "jostle run x.toml", "host", "SI", "um",
-    "s",          "pN um-2"};
+    "A. Student", "1.2.3", "seed = 5  # \xc3\xa9\n", "seed = 5\n", 5, "jostle run x.toml", "host", "SI", "um", "s",
+    "pN um-2",    ""};
 
 /// `frames` frames of `count` rods; with `varying`, of count, count - 1, ... rods in a box that grows.
 void write_journal(const std::string& path, unsigned frames, unsigned count, bool varying = false) {
@@ -193,6 +193,29 @@ TEST_CASE("a number of rods that varies: rows without a rod have the fill value 
     CHECK(fill == -1);
     H5Pclose(properties);
     H5Dclose(dataset);
+}
+
+TEST_CASE("the stress of every rod, where the journal has it; rows without a rod are not numbers") {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("trajectory.h5"), journal_path = folder.file("trajectory.journal");
+    {
+        auto journal = TrajectoryJournal::create(journal_path, TrajectoryJournal::Content::rods_and_stress);
+        const Mat3 first = {{1, 2, 3, 4, 5, 6, 7, 8, 0.1}}, second = {{9, 8, 7, 6, 5, 4, 3, 2, 1}};
+        journal.append(0, 0.0, Box{}, some_rods(1, 1), {first});
+        journal.append(5, 0.5, Box{}, some_rods(2, 2), {second, first});
+    }
+    H5mdAttributes with_unit = attributes;
+    with_unit.energy_unit = "pN um";
+    write_h5md(journal_path, path, with_unit);
+    verify_h5md(path);
+    const Opened file(path);
+    const auto stress = file.read<double>("particles/rods/stress_collision/value", H5T_NATIVE_DOUBLE, {2, 2, 3, 3});
+    CHECK(stress[8] == 0.1);
+    for (std::size_t k = 9; k < 18; ++k) CHECK(std::isnan(stress[k]));
+    CHECK(stress[18] == 9.0);
+    CHECK(stress[27 + 5] == 6.0);
+    CHECK(file.text_attribute("particles/rods/stress_collision/value", "unit") == "pN um");
+    CHECK(file.address("particles/rods/stress_collision/step") == file.address("particles/rods/position/step"));
 }
 
 TEST_CASE("no frames, no rods, and texts longer than an object header are written too") {

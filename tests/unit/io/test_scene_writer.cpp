@@ -32,7 +32,15 @@ public:
         draw_contact(scene);
         draw_time(scene);
         draw_tumbles(scene);
-        scene.output = {1 + random_() % 1000, random_() % 1000, 1 + (random_() >> 2), chance(), chance(), std::nullopt};
+        scene.output.series_every = 1 + random_() % 1000;
+        scene.output.trajectory_every = random_() % 1000;
+        scene.output.checkpoint_every = 1 + (random_() >> 2);
+        scene.output.contacts = chance();
+        scene.output.stress_conventions = chance();
+        scene.output.stress_per_rod = scene.output.trajectory_every > 0 && chance();
+        if (chance()) scene.output.field_every = 1 + random_() % 1000;
+        if (scene.output.field_every > 0 && chance()) scene.output.field_spacing = number(0.1, 10);
+        if (chance()) scene.springs.file = text() + "springs.csv";
         if (scene.motion.self_propulsion > 0.0 && chance()) scene.output.active_stress_lag = number(1e-3, 1e3);
         return scene;
     }

@@ -166,3 +166,59 @@ TEST_CASE("a full disk leaves whole frames") {
     CHECK(frames_of(path) == code);
     CHECK(content_of(path).size() == 16 + static_cast<std::size_t>(code) * (72 + 5 * 52 + 8));
 }
+
+namespace {
+
+std::vector<Mat3> some_stress(std::size_t count, double scale) {
+    std::vector<Mat3> stress(count);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t k = 0; k < 9; ++k) stress[i].m[k] = scale / (1.0 + static_cast<double>(9 * i + k));
+    return stress;
+}
+
+}  // namespace
+
+TEST_CASE("with stress: every rod's comes back to the bit, resumed or not, and any flip of a bit is detected") {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("trajectory.journal");
+    std::uint64_t middle = 0;
+    {
+        auto journal = TrajectoryJournal::create(path, TrajectoryJournal::Content::rods_and_stress);
+        journal.append(10, 1.0, Box{}, some_rods(2, 10), some_stress(2, 0.1));
+        journal.append(20, 2.0, Box{}, some_rods(0, 20), {});
+        middle = journal.bytes();
+        journal.append(30, 3.0, Box{}, some_rods(3, 30), some_stress(3, -7.0));
+        CHECK(contains(message_of<InputError>([&] { journal.append(40, 4.0, Box{}, some_rods(3, 40)); }),
+                       "0 rows: does not fit the journal (allowed: 3 rows)"));
+    }
+    const std::string good = content_of(path);
+    CHECK(good.size() == 16 + 3 * (72 + 8) + 5 * (52 + 72));
+    {
+        TrajectoryJournal journal = TrajectoryJournal::resume(path, middle);
+        journal.append(30, 3.0, Box{}, some_rods(3, 30), some_stress(3, -7.0));
+    }
+    CHECK(content_of(path) == good);
+    TrajectoryReader reader(path);
+    CHECK(reader.content() == TrajectoryJournal::Content::rods_and_stress);
+    TrajectoryFrame frame;
+    for (const auto& [count, scale] : {std::pair{2u, 0.1}, {0u, 1.0}, {3u, -7.0}}) {
+        REQUIRE(reader.next(frame));
+        REQUIRE(frame.stress.size() == count);
+        const std::vector<Mat3> stress = some_stress(count, scale);
+        for (std::size_t i = 0; i < count; ++i) CHECK(frame.stress[i].m == stress[i].m);
+    }
+    int undetected = 0;
+    for (std::size_t k = 0; k < good.size(); ++k)
+        for (int bit = 0; bit < 8; ++bit) {
+            put_byte(path, k, static_cast<char>(good[k] ^ (1 << bit)));
+            if (frames_of(path) != -1) ++undetected;
+            put_byte(path, k, good[k]);
+        }
+    CHECK(undetected == 0);
+}
+
+TEST_CASE("a journal without stress takes none") {
+    const TemporaryFolder folder;
+    TrajectoryJournal journal = TrajectoryJournal::create(folder.file("trajectory.journal"));
+    CHECK_THROWS_AS(journal.append(1, 0.1, Box{}, some_rods(2, 1), some_stress(2, 1.0)), InputError);
+}

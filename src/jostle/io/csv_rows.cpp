@@ -1,0 +1,73 @@
+#include "jostle/io/csv_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "jostle/io/csv_cells.hpp"
+#include "jostle/io/durable_file.hpp"
+
+namespace jostle {
+
+namespace {
+
+/// Which cell of a line holds each column.
+using Places = std::vector<std::optional<std::size_t>>;
+
+Places places_of(const std::string& path, const CsvColumns& columns, std::string_view header) {
+    Places places(columns.names.size());
+    std::vector<std::string_view> names;
+    split_cells(header, names);
+    for (std::size_t cell = 0; cell < names.size(); ++cell) {
+        const auto known = std::find(columns.names.begin(), columns.names.end(), names[cell]);
+        if (known == columns.names.end())
+            throw refused_file(path, fmt::format("\"{}\" is no column of {}", names[cell], columns.file),
+                               std::string(columns.header), 1);
+        auto& place = places[static_cast<std::size_t>(known - columns.names.begin())];
+        if (place) throw refused_file(path, fmt::format("the column \"{}\" stands twice", names[cell]), "", 1);
+        place = cell;
+    }
+    for (std::size_t k = 0; k < columns.required; ++k)
+        if (!places[k])
+            throw refused_file(path, fmt::format("the column \"{}\" is missing", columns.names[k]),
+                               std::string(columns.header), 1);
+    return places;
+}
+
+double number(const std::string& path, int line, std::string_view name, std::string_view text) {
+    if (const auto value = number_of_cell(text)) return *value;
+    throw refused_file(path, fmt::format("{} = \"{}\" is not a finite number", name, text), "", line);
+}
+
+}  // namespace
+
+void for_each_csv_row(const std::string& path, const CsvColumns& columns,
+                      const std::function<void(int, std::span<const std::optional<double>>)>& row) {
+    const std::string content = read_file(path);
+    std::string_view rest = content;
+    Places places;
+    std::vector<std::string_view> cells;
+    std::vector<std::optional<double>> values(columns.names.size());
+    for (int line = 1; !rest.empty(); ++line) {
+        const std::string_view text = next_line(rest);
+        if (line == 1) {
+            places = places_of(path, columns, text);
+            continue;
+        }
+        if (text.empty()) continue;
+        split_cells(text, cells);
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            if (!places[k]) continue;
+            if (*places[k] >= cells.size())
+                throw refused_file(path,
+                                   fmt::format("{} cells, but column \"{}\" is the {}th", cells.size(),
+                                               columns.names[k], *places[k] + 1),
+                                   "Was the file cut short?", line);
+            values[k] = number(path, line, columns.names[k], cells[*places[k]]);
+        }
+        row(line, values);
+    }
+}
+
+}  // namespace jostle

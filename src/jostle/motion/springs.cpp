@@ -1,0 +1,52 @@
+#include "jostle/motion/springs.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <unordered_map>
+
+#include "jostle/motion/require_value.hpp"
+#include "jostle/parallel/parallel_for.hpp"
+
+namespace jostle {
+
+Springs::Springs(std::vector<Spring> springs, const Box& box, const Mobility& mobility)
+    : springs_(std::move(springs)), box_(box), mobility_(mobility) {
+    for (const Spring& spring : springs_) {
+        require_value(std::isfinite(spring.stiffness) && spring.stiffness >= 0.0, "stiffness", spring.stiffness,
+                      "is no stiffness of a spring", ">= 0, finite");
+        require_value(std::isfinite(spring.rest_length) && spring.rest_length >= 0.0, "rest_length", spring.rest_length,
+                      "is no rest length of a spring", ">= 0, finite");
+    }
+}
+
+void Springs::add_to(Velocities& known, const Rods& rods, const StepContext& /*context*/) const {
+    assert(known.size() == rods.size());
+    const Velocities own = velocities(rods);
+    parallel_for(rods.size(), [&](std::size_t i) {
+        known.linear[i] += own.linear[i];
+        known.angular[i] += own.angular[i];
+    });
+}
+
+Velocities Springs::velocities(const Rods& rods) const {
+    Velocities own(rods.size());
+    mobility_.apply(rods, spring_forces(springs_, spring_pulls(springs_, rods, box_), rods), own);
+    return own;
+}
+
+double spring_relaxation(std::span<const Spring> springs, const MobilityOfRod& mobility_of, double time_step) {
+    std::unordered_map<std::uint64_t, double> rate;
+    const auto add = [&](std::uint64_t id, double s, double stiffness) {
+        const RodMobility rod = mobility_of(id);
+        rate[id] += 2.0 * stiffness * std::max(rod.parallel, rod.perpendicular + s * s * rod.rotational);
+    };
+    for (const Spring& spring : springs) {
+        add(spring.rod_1, spring.s_1, spring.stiffness);
+        add(spring.rod_2, spring.s_2, spring.stiffness);
+    }
+    double fastest = 0.0;
+    for (const auto& [id, value] : rate) fastest = std::max(fastest, value);
+    return time_step * fastest;
+}
+
+}  // namespace jostle

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "jostle/mobility/mobility.hpp"
+#include "jostle/motion/motion.hpp"
+#include "jostle/rods/spring.hpp"
+
+namespace jostle {
+
+/// Springs between rods: U = M F with their forces and torques as the step begins (theory, eq. 2.16).
+///
+/// Explicit in time: steps must be short beside what springs need to relax, see `spring_relaxation`.
+class Springs final : public Motion {
+public:
+    /// `mobility` must outlive this object and be up to date with the rods.
+    Springs(std::vector<Spring> springs, const Box& box, const Mobility& mobility);
+
+    /// Throws InputError if a spring names a rod that is not there.
+    void add_to(Velocities& known, const Rods& rods, const StepContext& context) const override;
+
+    /// The springs' part of U_known (N). Errors: as `add_to`.
+    Velocities velocities(const Rods& rods) const;
+
+private:
+    std::vector<Spring> springs_;
+    Box box_;
+    const Mobility& mobility_;
+};
+
+using MobilityOfRod = std::function<RodMobility(std::uint64_t id)>;
+
+/// The part of its stretch that any spring loses in a step, at most: dt max over rods of 2 sum over its springs of k m
+/// (theory, eq. 2.17), with m the larger mobility of the point, max(parallel, perpendicular + s^2 rotational).
+///
+/// Exact for two equal spheres; an upper bound of every network's rates. Above 1 springs overshoot, above 2 they may
+/// blow up.
+double spring_relaxation(std::span<const Spring> springs, const MobilityOfRod& mobility_of, double time_step);
+
+}  // namespace jostle
