@@ -78,7 +78,7 @@ TEST_CASE("no quantity may be nan, infinite or out of bounds, whichever key it i
     std::string key;
     int quantities = 0;
     while (set_quantity(counted, quantities, 1.0, key)) ++quantities;
-    CHECK(quantities == 30);
+    CHECK(quantities == 31);
     for (int index = 0; index < quantities; ++index)
         for (const double value : {not_a_number, infinity, -infinity, 1e300, -1e300}) {
             std::string changed, message;
@@ -91,6 +91,7 @@ TEST_CASE("no quantity may be nan, infinite or out of bounds, whichever key it i
                     if (changed == "rods.axis") s.rods.start = StartKind::aligned;
                     if (changed == "box.edges") s.box.volume_fraction.reset();
                     if (changed == "time.rms_step") s.time.step.reset();
+                    s.output.field_every = 10;
                     if (changed.starts_with("growth.")) {
                         s.growth.rate = 0.1;
                         s.growth.division_length = 2.0 * s.rods.length + s.rods.diameter;
@@ -123,6 +124,14 @@ TEST_CASE("keys beside keys") {
     CHECK(refused_key([](Scene& s) { s.time.rms_step = 0.03; }) == "time.rms_step");
     CHECK(refused_key([](Scene& s) { s.time.step.reset(); }) == "time.step");
     CHECK(refused_key([](Scene& s) { s.rods.file = "rods.csv"; }) == "rods.file");
+    CHECK(refused_key([](Scene& s) { s.output.stress_per_rod = true; }) == "output.stress_per_rod");
+    CHECK(refused_key([](Scene& s) { s.output.field_spacing = 2.0; }) == "output.field_spacing");
+    CHECK(refused_key([](Scene& s) { s.springs.file = "springs.csv"; }) == "");
+    CHECK(refused_key([](Scene& s) {
+              s.springs.file = "springs.csv";
+              s.growth.rate = 0.1;
+              s.growth.division_length = 12.0;
+          }) == "springs.file");
     CHECK(refused_key([](Scene& s) { s.rods.axis = {0, 1, 0}; }) == "rods.axis");
     CHECK(refused_key([](Scene& s) { s.rods.start = StartKind::file; }) == "rods.file");
     CHECK(refused_key([](Scene& s) {
