@@ -7,12 +7,12 @@
 #include <cstdio>
 #include <numbers>
 
+#include "jostle/io/rods_of_scene.hpp"
 #include "jostle/io/scene_reader.hpp"
 #include "jostle/io/scene_writer.hpp"
 #include "jostle/io/units.hpp"
 #include "jostle/simulation/assemble.hpp"
 #include "jostle/simulation/validate_scene.hpp"
-#include "rods_of_scene.hpp"
 
 using namespace jostle;
 
