@@ -4,6 +4,7 @@
 #include "exit_code.hpp"
 #include "presentation_command.hpp"
 #include "run_command.hpp"
+#include "stress_command.hpp"
 #include "verify_command.hpp"
 #include "version.hpp"
 
@@ -32,6 +33,27 @@ std::string joined(int count, char** words) {
 constexpr const char* footer =
     "Exit status: 0 done, 1 internal error, 2 bad input, 3 contacts not resolved or overlap above the limit,\n"
     "4 disk, 75 stopped early (run the same command again to go on).";
+
+CLI::App* add_stress_command(CLI::App& app, StressOptions& options) {
+    CLI::App* stress = app.add_subcommand("stress", "Stress of contacts that another program found");
+    stress->add_option("contacts", options.contacts, "contacts: CSV or HDF5 (docs/guide/stress_formula.md)")
+        ->required();
+    stress->add_option("--bodies", options.bodies, "bodies: CSV or HDF5")->required();
+    CLI::Option* box = stress->add_option("--box", options.box, "edges of the box, which give its volume")->expected(3);
+    stress->add_option("--periodic", options.periodic, "directions in which the box is periodic, or none")
+        ->needs(box)
+        ->capture_default_str();
+    stress->add_option("--volume", options.volume, "volume to divide by; without it, stress times volume is given")
+        ->check(CLI::PositiveNumber)
+        ->excludes(box);
+    stress->add_option("--convention", options.convention, "rigid_body, centre_of_mass_virial or centre_line")
+        ->capture_default_str();
+    stress->add_option("--per-body", options.per_body, "write the stress of each body to this file (CSV)");
+    stress->add_option("--length-unit", options.length_unit, "name of the unit of length; default: what the files say");
+    stress->add_option("--force-unit", options.force_unit, "name of the unit of force; default: what the files say");
+    stress->add_flag("--json", options.json, "print JSON");
+    return stress;
+}
 
 }  // namespace
 
@@ -79,6 +101,9 @@ int main(int argc, char** argv) {
     report->add_option("--out", out, "folder for the page and its pictures; default: report in the folder of the run");
     report->add_option("--width", width, "width of the view of the rods, in pixels")->capture_default_str();
 
+    StressOptions stress_options;
+    CLI::App* stress = add_stress_command(app, stress_options);
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -88,6 +113,7 @@ int main(int argc, char** argv) {
     return exit_status([&]() {
         if (run->parsed()) return run_command(options);
         if (check->parsed()) return check_command(scene);
+        if (stress->parsed()) return stress_command(stress_options);
         if (verify->parsed()) return verify_command(folder);
         if (exporter->parsed()) return presentation_command("export", {"--to=" + format, "--out=" + out, "--", folder});
         return presentation_command("report", {"--width=" + width, "--out=" + out, "--", folder});

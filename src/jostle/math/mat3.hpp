@@ -59,6 +59,24 @@ inline Vec3 operator*(const Mat3& a, const Vec3& v) {
             a.m[6] * v.x + a.m[7] * v.y + a.m[8] * v.z};
 }
 
+inline Mat3 operator*(const Mat3& a, const Mat3& b) {
+    Mat3 product;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) product(i, j) = a(i, 0) * b(0, j) + a(i, 1) * b(1, j) + a(i, 2) * b(2, j);
+    return product;
+}
+
+/// eps:a, element i is eps_ijk a_jk: all that the antisymmetric part of `a` holds. For a dyad b c it is b x c.
+inline Vec3 axial_vector(const Mat3& a) {
+    return {a(1, 2) - a(2, 1), a(2, 0) - a(0, 2), a(0, 1) - a(1, 0)};
+}
+
+inline bool is_finite(const Mat3& a) {
+    for (double value : a.m)
+        if (!std::isfinite(value)) return false;
+    return true;
+}
+
 /// Frobenius norm.
 inline double norm(const Mat3& a) {
     double sum = 0.0;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "jostle/math/vec3.hpp"
+#include "jostle/math/mat3.hpp"
 
 namespace jostle {
 
@@ -27,6 +27,14 @@ inline Vec3 rotated(const Vec3& axis, const Vec3& angle) {
     }
     const Vec3 turned = axis + sine_over_theta * cross(angle, axis) + versine * cross(angle, cross(angle, axis));
     return normalised(turned);
+}
+
+/// The rotation matrix of the quaternion w + x i + y j + z k, of any length but 0: its columns are the turned axes.
+inline Mat3 rotation_of_quaternion(double w, double x, double y, double z) {
+    const double scale = 2.0 / (w * w + x * x + y * y + z * z);
+    return Mat3{{1.0 - scale * (y * y + z * z), scale * (x * y - w * z), scale * (x * z + w * y),  //
+                 scale * (x * y + w * z), 1.0 - scale * (x * x + z * z), scale * (y * z - w * x),  //
+                 scale * (x * z - w * y), scale * (y * z + w * x), 1.0 - scale * (x * x + y * y)}};
 }
 
 }  // namespace jostle

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "jostle/math/mat3.hpp"
+#include "jostle/stress/stress.hpp"
 
 // The collision stress of two rigid bodies of any shape (Yan, Zhang & Shelley, J. Chem. Phys. 150, 064109 (2019)).
 //
@@ -30,6 +31,12 @@ struct PairStress {
     Mat3 geometric_2;            ///< s^G of body 2 under +F
 
     Mat3 total() const { return centre_of_mass_virial + geometric_1 + geometric_2; }
+
+    /// eps:sigma, all that the antisymmetric part holds: (r_2 + x_2 - r_1 - x_1) x F, the torque of a force off the
+    /// line between its two points; never dropped.
+    Vec3 axial() const { return axial_vector(total()); }
+    /// |sigma - sigma^T|/|sigma|, from 0 to 2.
+    double asymmetry() const { return relative_asymmetry(total()); }
 };
 
 /// Which pair stress; all but `rigid_body` are here to compare with other programs. Symmetry alone singles out none.

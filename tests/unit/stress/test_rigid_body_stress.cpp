@@ -64,8 +64,11 @@ TEST_CASE("a force off the line between its two points gives eps:sigma = d x F")
     for (int k = 0; k < pairs; ++k) {
         const RandomPair pair(generator);
         const Vec3 force = random_vector(generator);
-        const Mat3 stress = pair.stress(force).total();
+        const PairStress parts = pair.stress(force);
+        const Mat3 stress = parts.total();
         CHECK(norm(axial(stress) - cross(pair.separation(), force)) < 1e-13 * (norm(stress) + norm(force)) * 10.0);
+        CHECK(norm(parts.axial() - axial(stress)) == 0.0);
+        CHECK(parts.asymmetry() == doctest::Approx(std::sqrt(2.0) * norm(parts.axial()) / norm(stress)));
     }
 }
 

@@ -4,53 +4,16 @@
 #include <doctest/doctest.h>
 
 #include <limits>
-#include <numbers>
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/rods/rods.hpp"
 #include "jostle/stress/collision_stress.hpp"
 #include "jostle/stress/spherocylinder_moments.hpp"
+#include "quadrature.hpp"
 #include "random_bodies.hpp"
 
 using namespace jostle;
 using namespace jostle::test;
-
-namespace {
-
-constexpr std::array<double, 5> nodes = {-0.90617984593866399, -0.53846931010568309, 0.0, 0.53846931010568309,
-                                         0.90617984593866399};
-constexpr std::array<double, 5> weights = {0.23692688505618909, 0.47862867049936647, 0.56888888888888889,
-                                           0.47862867049936647, 0.23692688505618909};
-
-/// Integral of f(x) over a spherocylinder along z about its centre: Gauss-Legendre along z (cap, cylinder, cap) and
-/// along the radius, equal steps in the angle. Exact to rounding for polynomials of second degree in x.
-template <class T, class F>
-T integrate(double length, double diameter, F&& f) {
-    constexpr int angles = 8;
-    const double radius = 0.5 * diameter;
-    const std::array<double, 4> ends = {-0.5 * length - radius, -0.5 * length, 0.5 * length, 0.5 * length + radius};
-    T sum{};
-    for (std::size_t piece = 0; piece < 3; ++piece) {
-        const double half = 0.5 * (ends[piece + 1] - ends[piece]);
-        for (std::size_t a = 0; a < 5; ++a) {
-            const double z = ends[piece] + half * (1.0 + nodes[a]);
-            const double beyond = std::max(std::fabs(z) - 0.5 * length, 0.0);
-            const double half_width = 0.5 * std::sqrt(radius * radius - beyond * beyond);
-            for (std::size_t b = 0; b < 5; ++b) {
-                const double rho = half_width * (1.0 + nodes[b]);
-                const double weight =
-                    half * weights[a] * half_width * weights[b] * rho * 2.0 * std::numbers::pi / angles;
-                for (int c = 0; c < angles; ++c) {
-                    const double angle = 2.0 * std::numbers::pi * (c + 0.3) / angles;
-                    sum += weight * f(Vec3{rho * std::cos(angle), rho * std::sin(angle), z});
-                }
-            }
-        }
-    }
-    return sum;
-}
-
-}  // namespace
 
 TEST_CASE("closed forms of the moments equal the integrals") {
     for (const double length : {0.0, 0.3, 1.0, 2.5, 5.0, 20.0, 300.0}) {

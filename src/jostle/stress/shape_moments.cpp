@@ -1,0 +1,87 @@
+#include "jostle/stress/shape_moments.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+#include <vector>
+
+#include "jostle/error/input_error.hpp"
+#include "jostle/stress/spherocylinder_moments.hpp"
+
+namespace jostle {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+[[noreturn]] void refuse(const char* key, std::string value, const char* problem, std::string allowed) {
+    throw InputError({.key = key,
+                      .value = std::move(value),
+                      .problem = problem,
+                      .allowed = std::move(allowed),
+                      .suggestion = "",
+                      .place = {}});
+}
+
+std::string words_of(const Vec3& a) {
+    return fmt::format("{} {} {}", a.x, a.y, a.z);
+}
+
+void require_sizes(const char* key, const Vec3& sizes) {
+    if (!(is_finite(sizes) && sizes.x > 0.0 && sizes.y > 0.0 && sizes.z > 0.0))
+        refuse(key, words_of(sizes), "no body has such a size", "finite, > 0");
+}
+
+/// R diag(d) R^T.
+Mat3 along_axes(const Mat3& orientation, const Vec3& diagonal) {
+    require_rotation(orientation);
+    Mat3 matrix;
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 axis = {orientation(0, k), orientation(1, k), orientation(2, k)};
+        matrix += diagonal[k] * outer(axis, axis);
+    }
+    return matrix;
+}
+
+Vec3 squares(const Vec3& a) {
+    return {a.x * a.x, a.y * a.y, a.z * a.z};
+}
+
+}  // namespace
+
+BodyMoments sphere_moments(double diameter) {
+    if (!(std::isfinite(diameter) && diameter > 0.0))
+        refuse("diameter", fmt::format("{}", diameter), "no sphere has such a diameter", "finite, > 0");
+    const double mass = pi / 6.0 * diameter * diameter * diameter;
+    return {mass, {}, (mass * diameter * diameter / 20.0) * identity()};
+}
+
+BodyMoments spherocylinder_moments(const Vec3& axis, double length, double diameter) {
+    if (!(std::fabs(norm(axis) - 1.0) <= 1e-6)) refuse("axis", words_of(axis), "is no unit vector", "length 1 to 1e-6");
+    const SpherocylinderMoments moments = spherocylinder_moments(length, diameter);
+    const double mass = pi * diameter * diameter * (length / 4.0 + diameter / 6.0);
+    return {mass, {}, second_moment(moments, normalised(axis))};
+}
+
+BodyMoments box_moments(const Vec3& edges, const Mat3& orientation) {
+    require_sizes("edges", edges);
+    const double mass = edges.x * edges.y * edges.z;
+    return {mass, {}, along_axes(orientation, mass / 12.0 * squares(edges))};
+}
+
+BodyMoments ellipsoid_moments(const Vec3& semi_axes, const Mat3& orientation) {
+    require_sizes("semi_axes", semi_axes);
+    const double mass = 4.0 * pi / 3.0 * semi_axes.x * semi_axes.y * semi_axes.z;
+    return {mass, {}, along_axes(orientation, mass / 5.0 * squares(semi_axes))};
+}
+
+BodyMoments clump_moments(std::span<const Vec3> centres, std::span<const double> diameters) {
+    if (centres.size() != diameters.size() || centres.empty())
+        refuse("diameters", fmt::format("{} numbers", diameters.size()), "must have one a centre",
+               fmt::format("{} numbers, at least 1", centres.size()));
+    std::vector<BodyMoments> spheres;
+    for (std::size_t k = 0; k < centres.size(); ++k) spheres.push_back(moved(sphere_moments(diameters[k]), centres[k]));
+    return combined(spheres);
+}
+
+}  // namespace jostle
