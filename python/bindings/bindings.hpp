@@ -7,6 +7,7 @@ namespace jostle::python {
 // What each file adds to the extension module `_jostle`.
 void bind_errors(pybind11::module_& module);
 void bind_segment_distance(pybind11::module_& module);
+void bind_body_moments(pybind11::module_& module);
 void bind_stress(pybind11::module_& module);
 void bind_lcp(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);

@@ -12,6 +12,7 @@ PYBIND11_MODULE(_jostle, module) {
     module.def("thread_count", &parallel::thread_count);
     python::bind_errors(module);
     python::bind_segment_distance(module);
+    python::bind_body_moments(module);
     python::bind_stress(module);
     python::bind_lcp(module);
     python::bind_scene(module);

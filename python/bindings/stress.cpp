@@ -5,20 +5,12 @@
 #include "jostle/contact/contact_matrix.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/stress/collision_stress.hpp"
+#include "jostle/stress/contact_stress.hpp"
 #include "jostle/stress/rigid_body_stress.hpp"
-#include "jostle/stress/spherocylinder_moments.hpp"
 
 namespace jostle::python {
 
 namespace {
-
-/// Mass and second moment of a spherocylinder of density 1.
-py::tuple moments_of_spherocylinder(double length, double diameter, const Numbers& axis) {
-    require_shape(axis, {3}, "axis");
-    const SpherocylinderMoments moments = spherocylinder_moments(length, diameter);
-    const Vec3 direction{axis.at(0), axis.at(1), axis.at(2)};
-    return py::make_tuple(rod_volume(length, diameter), array_of(second_moment(moments, direction)));
-}
 
 /// The error of a pair, with the number of its row.
 [[noreturn]] void refuse_row(const InputError& error, std::size_t row) {
@@ -53,24 +45,26 @@ py::tuple pair_stress_of_rows(const Numbers& centre_1, const Numbers& second_mom
                           array_of(std::span<const Mat3>(geometric_2)));
 }
 
-/// Contacts from columns; `i`, `j` have been found to be rows of the rods.
+/// A row of the rods or bodies, as contact l names it.
+std::uint32_t row_in(std::int64_t row, std::size_t l, std::size_t count) {
+    if (row >= 0 && row < static_cast<std::int64_t>(count)) return static_cast<std::uint32_t>(row);
+    throw InputError({.key = fmt::format("contacts (row {})", l),
+                      .value = std::to_string(row),
+                      .problem = "is no row of the bodies",
+                      .allowed = fmt::format("0 to {}", static_cast<std::int64_t>(count) - 1)});
+}
+
+/// Contacts from columns.
 Contacts contacts_of(const Indices& i, const Indices& j, const Numbers& normal, const Numbers& arm_i,
                      const Numbers& arm_j, const Numbers& gap, std::size_t rods) {
     const auto rows_i = indices_in(i, "i"), rows_j = indices_in(j, "j");
     const auto normals = vectors_in(normal, "normal");
     const auto arms_i = numbers_in(arm_i, "arm_i"), arms_j = numbers_in(arm_j, "arm_j"), gaps = numbers_in(gap, "gap");
     Contacts contacts;
-    for (std::size_t l = 0; l < rows_i.size(); ++l) {
-        for (const std::int64_t row : {rows_i[l], rows_j[l]})
-            if (row < 0 || row >= static_cast<std::int64_t>(rods))
-                throw InputError({.key = fmt::format("contacts (row {})", l),
-                                  .value = std::to_string(row),
-                                  .problem = "is no row of the rods",
-                                  .allowed = fmt::format("0 to {}", static_cast<std::int64_t>(rods) - 1)});
-        contacts.push_back({static_cast<std::uint32_t>(rows_i[l]), static_cast<std::uint32_t>(rows_j[l]), normals[l],
-                            arms_i[l], arms_j[l], gaps[l], 0.0},
-                           {}, ContactFeature::nearest);
-    }
+    for (std::size_t l = 0; l < rows_i.size(); ++l)
+        contacts.push_back(
+            {row_in(rows_i[l], l, rods), row_in(rows_j[l], l, rods), normals[l], arms_i[l], arms_j[l], gaps[l], 0.0},
+            {}, ContactFeature::nearest);
     return contacts;
 }
 
@@ -102,12 +96,46 @@ py::array sum_over_contacts(const Numbers& axis, const Numbers& length, const Nu
     return array_of(sum);
 }
 
+StressConvention convention_named(const std::string& word) {
+    if (word == "rigid_body") return StressConvention::rigid_body;
+    if (word == "centre_line") return StressConvention::centre_line;
+    if (word == "centre_of_mass_virial") return StressConvention::centre_of_mass_virial;
+    throw InputError({.key = "convention",
+                      .value = "\"" + word + "\"",
+                      .problem = "is unknown",
+                      .allowed = "\"rigid_body\", \"centre_line\", \"centre_of_mass_virial\""});
+}
+
+/// (virial, geometric, per body) of a list of contacts.
+py::tuple stress_of_contacts(const Numbers& second_moment, const Indices& body_1, const Indices& body_2,
+                             const Numbers& separation, const Numbers& point_1, const Numbers& point_2,
+                             const Numbers& force, const std::string& convention) {
+    const auto second_moments = matrices_in(second_moment, "second_moment");
+    const auto first = indices_in(body_1, "body_1"), second = indices_in(body_2, "body_2");
+    for (const Numbers* other : {&separation, &point_1, &point_2, &force})
+        require_shape(*other, {body_1.shape(0), 3}, "a vector for each contact");
+    require_shape(body_2, {body_1.shape(0)}, "body_2");
+    const auto separations = vectors_in(separation, "separation"), forces = vectors_in(force, "force");
+    const auto points_1 = vectors_in(point_1, "point_1"), points_2 = vectors_in(point_2, "point_2");
+    std::vector<BodyContact> contacts;
+    for (std::size_t l = 0; l < forces.size(); ++l)
+        contacts.push_back({row_in(first[l], l, second_moments.size()), row_in(second[l], l, second_moments.size()),
+                            separations[l], points_1[l], points_2[l], forces[l]});
+    ContactStress stress;
+    {
+        const py::gil_scoped_release release;
+        stress = contact_stress(second_moments, contacts, convention_named(convention));
+    }
+    return py::make_tuple(array_of(stress.virial), array_of(stress.geometric),
+                          array_of(std::span<const Mat3>(stress.per_body)));
+}
+
 }  // namespace
 
 void bind_stress(py::module_& module) {
-    module.def("spherocylinder_moments", &moments_of_spherocylinder);
     module.def("pair_stress", &pair_stress_of_rows);
     module.def("sum_over_contacts", &sum_over_contacts);
+    module.def("contact_stress", &stress_of_contacts);
 }
 
 }  // namespace jostle::python

@@ -5,103 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _jostle
-from ._arrays import array, number, rows, with_shape
+from ._arrays import number, rows, with_shape
 from ._jostle import refuse
-
-
-@dataclass(frozen=True)
-class Body:
-    """A rigid body, or many of them in arrays with leading dimensions.
-
-    mass : (...) array
-    centre : (..., 3) array, length; centre of mass
-    second_moment : (..., 3, 3) array, N = int rho x x dV about the centre of mass, mass length**2
-
-    The stress does not depend on the scale of the density: any factor in mass and second moment is allowed.
-
-    >>> ball = Body(mass=1.0, centre=[0, 0, 0], second_moment=0.5 * np.eye(3))
-    >>> ball.inertia[0, 0]
-    1.0
-    """
-    mass: np.ndarray
-    centre: np.ndarray
-    second_moment: np.ndarray
-
-    def __post_init__(self):
-        for name, last in (("mass", ()), ("centre", (3,)), ("second_moment", (3, 3))):
-            given = array(name, getattr(self, name))
-            if given.shape[max(given.ndim - len(last), 0):] != last:
-                refuse(name, f"an array of shape {given.shape}", "has the wrong shape", f"(..., {str(last)[1:-1]})")
-            object.__setattr__(self, name, given)
-
-    def at(self, centre):
-        """The same body with its centre of mass elsewhere."""
-        return Body(self.mass, centre, self.second_moment)
-
-    @property
-    def inertia(self):
-        """(..., 3, 3) array, G = tr(N) I - N."""
-        trace = np.trace(self.second_moment, axis1=-2, axis2=-1)
-        return trace[..., None, None] * np.eye(3) - self.second_moment
-
-
-def body_moments(shape, **sizes):
-    """Mass and second moment of a body of density 1, as a `Body` with its centre of mass at the origin.
-
-    Parameters
-    ----------
-    shape : str, and its sizes (length):
-        "sphere": diameter
-        "spherocylinder": length (of the cylinder part, >= 0), diameter, axis (3; need not be a unit vector)
-
-    Returns
-    -------
-    Body
-
-    Raises
-    ------
-    InputError
-        For an unknown shape, a size that is missing, unknown or out of its range.
-
-    Notes
-    -----
-    Theory, eq. (1.5), jostle/stress/spherocylinder_moments.hpp.
-
-    Examples
-    --------
-    >>> body_moments("sphere", diameter=2.0).second_moment[0, 0]
-    0.8377580409572781
-    >>> rod = body_moments("spherocylinder", length=5.0, diameter=1.0, axis=[0, 0, 1])
-    >>> rod.second_moment.diagonal().round(4)
-    array([ 0.2716,  0.2716, 11.9708])
-    """
-    if shape not in _SHAPES:
-        refuse("shape", repr(shape), "is unknown", ", ".join(f'"{name}"' for name in _SHAPES))
-    make, names = _SHAPES[shape]
-    for name in sizes:
-        if name not in names:
-            refuse(name, str(sizes[name]), f'is no size of a "{shape}"', ", ".join(names))
-    for name in names:
-        if name not in sizes:
-            refuse(name, "", f'is missing: the shape "{shape}" needs it', ", ".join(names))
-    return make(**sizes)
-
-
-def _sphere(diameter):
-    return _spherocylinder(0.0, diameter, (0, 0, 1))
-
-
-def _spherocylinder(length, diameter, axis):
-    direction = with_shape("axis", axis, (3,))
-    size = np.linalg.norm(direction)
-    if not size > 0:
-        refuse("axis", str(direction), "has no direction", "a vector that is not zero")
-    mass, second_moment = _jostle.spherocylinder_moments(number("length", length), number("diameter", diameter),
-                                                         direction / size)
-    return Body(mass, np.zeros(3), second_moment)
-
-
-_SHAPES = {"sphere": (_sphere, ("diameter",)), "spherocylinder": (_spherocylinder, ("length", "diameter", "axis"))}
+from .bodies import Body
 
 
 @dataclass(frozen=True)
@@ -153,6 +59,7 @@ def pair_stress(body_1, body_2, point_1, point_2, force):
     --------
     Two spheres that touch, with a force that has friction in it: the stress is symmetric all the same.
 
+    >>> from jostle import body_moments
     >>> sphere = body_moments("sphere", diameter=1.0)
     >>> stress = pair_stress(sphere, sphere.at([1, 0, 0]), [0.5, 0, 0], [-0.5, 0, 0], force=[2.0, 1.0, 0.0])
     >>> stress.total
@@ -168,6 +75,93 @@ def pair_stress(body_1, body_2, point_1, point_2, force):
                         centre_2=(body_2.centre, vector), second_moment_2=(body_2.second_moment, matrix),
                         point_1=(point_1, vector), point_2=(point_2, vector), force=(force, vector))
     return PairStress(*(part.reshape(lead + matrix) for part in _jostle.pair_stress(*arrays)))
+
+
+@dataclass(frozen=True)
+class ContactStress:
+    """Stress times volume of many contacts, (3, 3) arrays, force length; element (position, force).
+
+    virial : sum over contacts of (r_2 - r_1) F; for "centre_line" from point to point
+    geometric : sum over bodies of s^G of the net torque; 0 in the other conventions
+    per_body : (bodies, 3, 3) array, which adds up to the total: half of every virial that the body takes part in, and
+        its own s^G
+    """
+    virial: np.ndarray
+    geometric: np.ndarray
+    per_body: np.ndarray
+
+    @property
+    def total(self):
+        """(3, 3) array; divide by the volume for the stress, positive in compression."""
+        return self.virial + self.geometric
+
+
+def contact_stress(bodies, body_1, body_2, point_1, point_2, force, *, separation=None, convention="rigid_body"):
+    """Stress times volume of a list of contacts between bodies of any shape, in all and of every body.
+
+    Parameters
+    ----------
+    bodies : Body with (B, ...) arrays, or a list of B single ones
+    body_1, body_2 : (C) arrays of whole numbers
+        Which bodies touch, 0 to B - 1.
+    point_1, point_2 : (C, 3) arrays, length
+        Where the force acts, relative to the centres of mass.
+    force : (C, 3) array, on body_2
+    separation : (C, 3) array, length, optional
+        From the centre of body_1 to that of body_2, nearest images taken. By default the difference of their centres.
+    convention : "rigid_body", "centre_line" (the points must lie on the centre lines) or "centre_of_mass_virial"
+
+    Returns
+    -------
+    ContactStress
+
+    Raises
+    ------
+    InputError
+        As pair_stress, and for numbers of bodies that are not there.
+
+    Notes
+    -----
+    Theory, eq. (1.14), jostle/stress/contact_stress.hpp; the sum of `pair_stress`, with work proportional to C + B.
+
+    Examples
+    --------
+    >>> from jostle import body_moments
+    >>> sphere = body_moments("sphere", diameter=1.0)
+    >>> bodies = [sphere, sphere.at([1, 0, 0]), sphere.at([2, 0, 0])]
+    >>> stress = contact_stress(bodies, [0, 1], [1, 2], [[0.5, 0, 0]] * 2, [[-0.5, 0, 0]] * 2, [[2.0, 0, 0]] * 2)
+    >>> stress.total[0, 0], stress.per_body[:, 0, 0]
+    (4.0, array([1., 2., 1.]))
+    """
+    centre, second_moment = _many(bodies)
+    first, second = (with_shape(name, value, (None,), kinds="iu", dtype=np.int64)
+                     for name, value in (("body_1", body_1), ("body_2", body_2)))
+    shape = first.shape + (3,)
+    if separation is None:
+        _require_bodies(np.concatenate((first, second)), len(centre))
+        with_shape("body_2", second, first.shape, kinds="iu", dtype=np.int64)
+        separation = centre[second] - centre[first]
+    vectors = [with_shape(name, value, shape) for name, value in
+               (("separation", separation), ("point_1", point_1), ("point_2", point_2), ("force", force))]
+    return ContactStress(*_jostle.contact_stress(second_moment, first, second, *vectors, str(convention)))
+
+
+def _require_bodies(rows_of, count):
+    wrong = rows_of[(rows_of < 0) | (rows_of >= count)]
+    if len(wrong):
+        refuse("body_1, body_2", str(wrong[0]), "is no row of the bodies", f"0 to {count - 1}")
+
+
+def _many(bodies):
+    """Centres (B, 3) and second moments (B, 3, 3)."""
+    if not isinstance(bodies, Body):
+        singles = [body._single() for body in bodies]
+        return tuple(np.array([body[k] for body in singles], float).reshape((-1, 3, 3)[:k + 1]) for k in (1, 2))
+    count = bodies.centre.shape[:1] if bodies.centre.ndim == 2 else bodies.second_moment.shape[:-2]
+    if len(count) != 1:
+        refuse("bodies", f"centres of shape {bodies.centre.shape}", "are not a list of bodies", "(B, 3)")
+    return (with_shape("centre", bodies.centre, count + (3,), repeat=True),
+            with_shape("second_moment", bodies.second_moment, count + (3, 3), repeat=True))
 
 
 def collision_stress(rods, contacts, volume, *, at="touching"):

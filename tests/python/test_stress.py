@@ -121,7 +121,7 @@ def test_rods_are_bodies(at):
     ({"diameter": 0}, {}, 1, r"diameter \(row 0\) = 0.0"),
     ({"length": np.ones(4)}, {}, 1, r"length = an array of shape \(4\): has the wrong shape .allowed: \(30\)"),
     ({"axis": None}, {}, 1, "axis: is missing"),
-    ({}, {"i": np.full(200, 30)}, 1, r"contacts \(row 0\) = 30: is no row of the rods .allowed: 0 to 29"),
+    ({}, {"i": np.full(200, 30)}, 1, r"contacts \(row 0\) = 30: is no row of the bodies .allowed: 0 to 29"),
     ({}, {"j": np.full(200, -1)}, 1, r"contacts \(row 0\) = -1"),
     ({}, {"i": np.zeros(200)}, 1, "i = an array of float64: does not hold numbers that jostle takes .allowed: whole"),
     ({}, {"force": np.ones(199)}, 1, "wrong shape"),
@@ -142,6 +142,75 @@ def test_no_contacts():
     assert np.array_equal(jostle.collision_stress(random_rods(3), random_contacts(0, 3), 1.0), np.zeros((3, 3)))
 
 
+ROTATION = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+CUBE = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
+FACES = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
+                  [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]])
+
+
+def same_body(one, other):
+    return all(np.allclose(getattr(one, name), getattr(other, name), atol=1e-12)
+               for name in ("mass", "centre", "second_moment"))
+
+
+def test_shapes_against_closed_forms():
+    box = jostle.body_moments("box", edges=[1, 2, 3])
+    assert same_body(box, jostle.Body(6, np.zeros(3), 0.5 * np.diag([1, 4, 9])))
+    assert same_body(box.rotated(ROTATION), jostle.body_moments("box", edges=[1, 2, 3], orientation=ROTATION))
+    ball = jostle.body_moments("sphere", diameter=2.0)
+    assert same_body(ball, jostle.body_moments("ellipsoid", semi_axes=[1, 1, 1]))
+    assert same_body(ball, jostle.body_moments("spherocylinder", length=0, diameter=2, axis=[3, 4, 0]))
+    assert np.isclose(ball.mass, 4 * np.pi / 3) and np.allclose(ball.second_moment, ball.mass / 5 * np.eye(3))
+    cube = jostle.body_moments("box", edges=[1, 1, 1]).at([0.5, 0.5, 0.5])
+    assert same_body(cube, jostle.body_moments("mesh", vertices=CUBE, triangles=FACES))
+    assert same_body(cube, jostle.body_moments("convex_hull", points=np.vstack((CUBE, [[0.5, 0.5, 0.9]]))))
+    pair = jostle.combined([ball, ball.at([2, 0, 0])])
+    assert same_body(pair, jostle.body_moments("clump", centres=[[0, 0, 0], [2, 0, 0]], diameters=[2, 2]))
+    corners = jostle.body_moments("points", points=CUBE, weights=np.full(8, 0.25))
+    assert same_body(corners, jostle.Body(2, [0.5] * 3, 0.5 * np.eye(3)))
+    heavy = jostle.combined([ball, ball.with_density(3).at([2, 0, 0])])  # its centre of mass is not its middle
+    assert np.allclose(heavy.centre, [1.5, 0, 0])
+    assert same_body(jostle.Body.from_inertia(box.mass, box.centre, box.inertia), box)
+
+
+def test_list_of_contacts():
+    """The sum of pair stresses, and shares that add up to it."""
+    bodies, count = random_body((20,)), 60
+    first, second = RANDOM.integers(0, 20, (2, count))
+    x_1, x_2, force = RANDOM.normal(size=(3, count, 3))
+    found = jostle.contact_stress(bodies, first, second, x_1, x_2, force)
+    one, two = (jostle.Body(bodies.mass[rows], bodies.centre[rows], bodies.second_moment[rows])
+                for rows in (first, second))
+    pairs = jostle.pair_stress(one, two, x_1, x_2, force)
+    scale = np.abs(pairs.total).sum()
+    assert np.abs(found.total - pairs.total.sum(axis=0)).max() < 1e-13 * scale
+    assert np.abs(found.per_body.sum(axis=0) - found.total).max() < 1e-13 * scale
+    singles = [jostle.Body(bodies.mass[k], bodies.centre[k], bodies.second_moment[k]) for k in range(20)]
+    again = jostle.contact_stress(singles, first, second, x_1, x_2, force,
+                                  separation=bodies.centre[second] - bodies.centre[first])
+    assert np.array_equal(again.per_body, found.per_body)
+    bare = jostle.contact_stress(bodies, first, second, x_1, x_2, force, convention="centre_of_mass_virial")
+    assert np.array_equal(bare.virial, found.virial) and not bare.geometric.any()
+
+
+@pytest.mark.parametrize("change, message", [
+    ({"body_1": [0, 20]}, "body_1, body_2 = 20: is no row of the bodies .allowed: 0 to 19"),
+    ({"body_2": [-1, 0]}, "body_1, body_2 = -1"),
+    ({"body_1": [0, 20], "separation": np.ones((2, 3))}, r"contacts \(row 1\) = 20"),
+    ({"body_1": [0.0, 1.0]}, "body_1 = an array of float64"),
+    ({"body_2": [0]}, "body_2 = an array of shape"),
+    ({"force": np.ones(3)}, r"force = an array of shape \(3\): has the wrong shape .allowed: \(2, 3\)"),
+    ({"point_1": np.full((2, 3), np.nan)}, "point_1 = nan: is not a finite number"),
+    ({"convention": "virial"}, 'convention = "virial": is unknown'),
+    ({"bodies": jostle.Body(1, np.zeros(3), np.eye(3))}, "are not a list of bodies"),
+])
+def test_bad_lists_of_bodies(change, message):
+    arguments = {"bodies": random_body((20,)), "body_1": [0, 1], "body_2": [2, 3], "point_1": np.ones((2, 3)),
+                 "point_2": np.ones((2, 3)), "force": np.ones((2, 3))}
+    with pytest.raises(jostle.InputError, match=message):
+        jostle.contact_stress(**{**arguments, **change})
+
+
 @pytest.mark.parametrize("shape, sizes, message", [
     ("cone", {}, 'shape = .cone.: is unknown .allowed: "sphere", "spherocylinder"'),
     ("sphere", {}, "diameter: is missing"),
@@ -150,7 +219,33 @@ def test_no_contacts():
     ("sphere", {"diameter": np.nan}, "diameter = nan"),
     ("spherocylinder", {"length": 1, "diameter": 1, "axis": [0, 0, 0]}, "axis = .*has no direction"),
     ("spherocylinder", {"length": 1, "diameter": 1, "axis": [0, 1]}, "axis = an array of shape"),
+    ("box", {"edges": [1, 0, 1]}, "edge"),
+    ("box", {"edges": [1, 1, 1], "orientation": 2 * np.eye(3)}, "rotation|orientation"),
+    ("box", {"edges": [1, 1, 1], "orientation": np.diag([1, 1, -1])}, "rotation|orientation"),
+    ("ellipsoid", {"semi_axes": [1, 1]}, "semi_axes = an array of shape"),
+    ("mesh", {"vertices": CUBE, "triangles": FACES[1:]}, "open"),
+    ("mesh", {"vertices": CUBE, "triangles": FACES[:, ::-1]}, "inside out"),
+    ("mesh", {"vertices": CUBE, "triangles": FACES + 1}, r"triangles \(row 2\) = 8: is no row of the vertices"),
+    ("mesh", {"vertices": CUBE, "triangles": FACES.astype(float)}, "triangles = an array of float64"),
+    ("convex_hull", {"points": CUBE[:4]}, "plane"),
+    ("points", {"points": CUBE, "weights": np.ones(7)}, "weights"),
+    ("points", {"points": CUBE, "weights": -np.ones(8)}, "weight"),
+    ("clump", {"centres": CUBE, "diameters": np.zeros(8)}, "diameter"),
 ])
 def test_bad_bodies(shape, sizes, message):
     with pytest.raises(jostle.InputError, match=message):
         jostle.body_moments(shape, **sizes)
+
+
+@pytest.mark.parametrize("inertia", [np.diag([1.0, 1.0, -1.0]), np.diag([1.0, 1.0, 3.0]), [[1, 1, 0], [0, 1, 0], [0, 0, 1]],
+                                     np.zeros((3, 3))])
+def test_bad_inertia(inertia):
+    with pytest.raises(jostle.InputError, match="inertia"):
+        jostle.Body.from_inertia(1.0, np.zeros(3), inertia)
+
+
+def test_many_bodies_where_one_is_needed():
+    with pytest.raises(jostle.InputError, match="are many, and this takes one"):
+        random_body((4,)).rotated(ROTATION)
+    with pytest.raises(jostle.InputError, match="has no body in it"):
+        jostle.combined([])
