@@ -23,7 +23,7 @@ from .scene import Scene
 from .simulation import Simulation, StepFailure, StepReport
 from .stress import ContactStress, PairStress, collision_stress, contact_stress, pair_stress
 
-__all__ = ["Body", "ContactStress", "DiskError", "InputError", "LcpResult", "PairStress", "Run", "Scene", "Simulation", "StepFailure",
-           "StepReport", "body_moments", "collision_stress", "combined", "contact_stress",
-           "load", "pair_stress", "segment_distance",
-           "set_thread_count", "solve_lcp", "thread_count"]
+__all__ = ["Body", "ContactStress", "DiskError", "InputError", "LcpResult", "PairStress", "Run", "Scene",
+           "Simulation", "StepFailure", "StepReport", "body_moments", "collision_stress", "combined",
+           "contact_stress", "load", "pair_stress", "segment_distance", "set_thread_count", "solve_lcp",
+           "thread_count"]

@@ -1,7 +1,7 @@
 #include <cstdio>
 
-#include "jostle/io/scene_reader.hpp"
 #include "jostle/io/rods_of_scene.hpp"
+#include "jostle/io/scene_reader.hpp"
 #include "jostle/simulation/assemble.hpp"
 #include "jostle/stress/rigid_body_stress.hpp"
 #include "jostle/stress/shape_moments.hpp"

@@ -75,6 +75,28 @@ def test_collision_stress_of_its_contacts(rods):
         assert np.abs(found - simulation.stress).max() <= 1e-12 * np.abs(simulation.stress).max()
 
 
+def test_contacts_name_the_right_cells_where_some_have_died(cells):
+    """Rows of the dead are gone when contacts are looked at; the gaps tell whether the ids are right all the same."""
+    cells.growth.death_rate = 2.0
+    cells.growth.division_every = 1
+    cells.rods.count = 40
+    simulation = jostle.Simulation(cells)
+    looked = 0
+    for _ in range(200):
+        before = simulation.rods
+        simulation.step()
+        if simulation.lineage["birth"].all():
+            continue
+        contacts = simulation.contacts
+        i, j = (np.searchsorted(before.id, contacts[name]) for name in ("id_i", "id_j"))
+        assert np.array_equal(before.id[i], contacts["id_i"]) and np.array_equal(before.id[j], contacts["id_j"])
+        points = [before.centre[k] + contacts[arm][:, None] * before.axis[k] for k, arm in ((i, "arm_i"), (j, "arm_j"))]
+        distance = np.linalg.norm(points[1] + contacts["image"] * simulation.edges - points[0], axis=1)
+        assert np.allclose(distance - 1.0, contacts["gap"], atol=1e-12)
+        looked += len(contacts)
+    assert looked > 20
+
+
 def test_arrays_belong_to_their_time(cells):
     """Across renumbering (at multiples of 512 steps), births, deaths, and the end of the simulation."""
     simulation = jostle.Simulation(cells)
