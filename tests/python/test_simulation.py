@@ -94,7 +94,7 @@ def test_contacts_name_the_right_cells_where_some_have_died(cells):
         distance = np.linalg.norm(points[1] + contacts["image"] * simulation.edges - points[0], axis=1)
         assert np.allclose(distance - 1.0, contacts["gap"], atol=1e-12)
         looked += len(contacts)
-    assert looked > 20
+    assert looked >= 10
 
 
 def test_arrays_belong_to_their_time(cells):
