@@ -7,7 +7,7 @@ import h5py
 import numpy as np
 import pytest
 
-from jostle_command import BAD_INPUT, DISK, DONE, RODS, SPHERES, changed, command, finish, rows_of, write_scene
+from jostle_command import BAD_INPUT, DISK, DONE, RODS, changed, command, finish, write_scene
 
 XYZ = "xyz"
 EPSILON = np.zeros((3, 3, 3))
@@ -341,3 +341,41 @@ def test_options_that_are_refused(tmp_path):
 def test_the_disk(tmp_path):
     write_both(tmp_path, TWO_SPHERES)
     assert "nowhere" in refusal(tmp_path, "--per-body", "nowhere/per_body.csv", status=DISK)
+
+
+def test_contacts_of_a_run_of_rods(tmp_path):
+    """Without the time-step correction a run's contacts, on the axes of the frame before, give the stress of its series.
+
+    Axes are in single precision there, so that is how exactly; all three conventions are compared.
+    """
+    scene = changed(RODS, contact={"brownian_correction": False}, time={"production": 1.0},
+                    output={"series_every": 1, "trajectory_every": 1, "contacts": True, "stress_conventions": True})
+    write_scene(tmp_path, scene)
+    run = finish(tmp_path)
+    series = np.genfromtxt(run / "series.csv", delimiter=",", names=True)
+    table = np.genfromtxt(run / "contacts.csv", delimiter=",", names=True)
+    step = int(table["step"][-1])
+    rows, series = table[table["step"] == step], series[series["step"] == step][0]
+    with h5py.File(run / "trajectory.h5") as file:
+        rods = file["particles/rods"]
+        assert rods["orientation/step"][step - 1] == step - 1
+        axis = dict(zip(rods["id/value"][step - 1], rods["orientation/value"][step - 1].astype(float)))
+        volume = np.prod(rods["box/edges"][:])
+    normal = np.column_stack([rows[f"normal_{a}"] for a in XYZ])
+    point_1, point_2 = (rows[f"arm_{k}"][:, None] * np.array([axis[i] for i in rows[f"id_{k}"]]) for k in "ij")
+    separation = point_1 + (1 + rows["gap"])[:, None] * normal - point_2
+    contacts = {"body_1": rows["id_i"], "body_2": rows["id_j"]}
+    for name, vectors in [("point_1", point_1), ("point_2", point_2), ("separation", separation),
+                          ("force", rows["force"][:, None] * normal)]:
+        contacts |= {f"{name}_{a}": vectors[:, k] for k, a in enumerate(XYZ)}
+    zero = [0.0] * len(axis)
+    bodies = {"id": list(axis), "x": zero, "y": zero, "z": zero, "shape": ["spherocylinder"] * len(axis),
+              "length": [2.0] * len(axis), "diameter": [1.0] * len(axis),
+              **{f"axis_{a}": [n[k] for n in axis.values()] for k, a in enumerate(XYZ)}}
+    write_both(tmp_path, {"contacts": contacts, "bodies": bodies})
+    assert len(rows) > 10
+    for convention, prefix in [("rigid_body", "stress"), ("centre_of_mass_virial", "centre_of_mass"),
+                               ("centre_line", "centre_line")]:
+        expected = np.array([[series[f"{prefix}_{a}{b}"] for b in XYZ] for a in XYZ])
+        found = stress(tmp_path, "--volume", volume, "--convention", convention, kind="h5")["stress"]
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-6 * np.abs(expected).max())

@@ -16,8 +16,9 @@ struct Place {
 ///
 /// `what()` is the whole message on one line:
 ///   FILE:LINE:COLUMN: KEY = VALUE: PROBLEM (allowed: RANGE). SUGGESTION
-/// with the parts that are empty left out. Checks deep in the program know key and value but not the place;
-/// the scene reader catches the error, and rethrows `with_place`.
+/// with the parts that are empty left out; for a table with several bad rows, such a line for each (RowProblems).
+/// Checks deep in the program know key and value but not the place; the scene reader catches the error, and rethrows
+/// `with_place`.
 class InputError : public std::runtime_error {
 public:
     struct Parts {

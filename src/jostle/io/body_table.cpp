@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "jostle/error/input_error.hpp"
@@ -113,6 +114,22 @@ Mat3 second_moment_of(const Row& row, Form form) {
     return moment;
 }
 
+/// Adds the body of a row of the table. Throws InputError, without a place, if it cannot be taken.
+void add_body(BodyTable& result, const Table& table, std::size_t k, Form form) {
+    const Row row(table, k);
+    const std::int64_t id = whole_number("id", row.number("id"));
+    const auto centre = row.numbers(centre_columns);
+    const RigidBody body = {{centre[0], centre[1], centre[2]}, second_moment_of(row, form)};
+    if (!result.row_of.try_emplace(id, static_cast<std::uint32_t>(result.id.size())).second) {
+        const std::vector<double>& ids = table.numbers.at("id");
+        const auto first = std::find(ids.begin(), ids.end(), static_cast<double>(id)) - ids.begin();
+        throw InputError({.problem = fmt::format("the id {} stands in {} already", id,
+                                                 table.problems.name_of(static_cast<std::size_t>(first)))});
+    }
+    result.id.push_back(id);
+    result.bodies.push_back(body);
+}
+
 }  // namespace
 
 BodyTable read_bodies(const std::string& path) {
@@ -126,22 +143,12 @@ BodyTable read_bodies(const std::string& path) {
     result.units = table.units;
     result.passed_over = table.passed_over(known);
     for (std::size_t k = 0; k < table.rows; ++k) {
-        RigidBody body;
-        std::int64_t id = 0;
-        if (!table.problems.has(k)) try {
-                const Row row(table, k);
-                id = whole_number("id", row.number("id"));
-                const auto centre = row.numbers(centre_columns);
-                body = {{centre[0], centre[1], centre[2]}, second_moment_of(row, form)};
-                const auto [first, is_new] = result.row_of.try_emplace(id, static_cast<std::uint32_t>(k));
-                if (!is_new)
-                    throw InputError({.problem = fmt::format("the id {} stands in {} already", id,
-                                                             table.problems.name_of(first->second))});
-            } catch (const InputError& error) {
-                table.problems.add(k, error.what());
-            }
-        result.id.push_back(id);
-        result.bodies.push_back(body);
+        if (table.problems.has(k)) continue;
+        try {
+            add_body(result, table, k, form);
+        } catch (const InputError& error) {
+            table.problems.add(k, error.what());
+        }
     }
     table.problems.throw_if_any();
     return result;
