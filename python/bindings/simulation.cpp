@@ -17,6 +17,22 @@ namespace jostle::python {
 
 namespace {
 
+/// A contact as contacts.csv has it: the smaller id first.
+struct ContactById {
+    std::array<std::uint64_t, 2> id;
+    Image image;
+    Vec3 normal;
+    std::array<double, 2> arm;
+};
+
+ContactById contact_by_id(const Simulation& simulation, std::size_t l) {
+    const Contact& contact = simulation.contacts().contact[l];
+    const Image& image = simulation.contacts().image[l];
+    const std::uint64_t i = simulation.contact_ids()[contact.i], j = simulation.contact_ids()[contact.j];
+    if (i <= j) return {{i, j}, image, contact.normal, {contact.arm_i, contact.arm_j}};
+    return {{j, i}, {-image[0], -image[1], -image[2]}, -contact.normal, {contact.arm_j, contact.arm_i}};
+}
+
 Simulation at_the_start(const SceneInPython& scene) {
     validate(scene.scene);
     Beginning beginning = beginning_of(scene.scene, scene.path);
@@ -50,7 +66,7 @@ SimulationInPython::SimulationInPython(SceneInPython scene, Checkpoint checkpoin
       sums_(StepSums::from_numbers(checkpoint.accumulators)) {}
 
 void SimulationInPython::step() {
-    if (stepping_) throw std::runtime_error("this simulation is in the middle of a step");
+    require_between_steps();
     if (simulation_.rods().size() == 0) throw std::runtime_error("all cells have died");
     const Step under_way(*this);
     {
@@ -71,7 +87,7 @@ void SimulationInPython::write_row() {
 }
 
 bool SimulationInPython::run(std::uint64_t steps) {
-    for (std::uint64_t k = 0; k < steps && simulation_.rods().size() > 0; ++k) {
+    for (std::uint64_t k = 0; k < steps && simulation().rods().size() > 0; ++k) {
         step();
         if (!failure_.empty()) return false;
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -80,7 +96,7 @@ bool SimulationInPython::run(std::uint64_t steps) {
 }
 
 void SimulationInPython::add_motion(py::function function) {
-    require_rest();
+    require_between_steps();
     functions_.push_back(std::move(function));
     const std::size_t number = functions_.size() - 1;
     simulation_.add(std::make_unique<PythonMotion>(
@@ -91,6 +107,10 @@ void SimulationInPython::add_motion(py::function function) {
 void SimulationInPython::require_rest() const {
     if (stepping_ && *stepping_ != std::this_thread::get_id())
         throw std::runtime_error("another thread makes a step of this simulation");
+}
+
+void SimulationInPython::require_between_steps() const {
+    if (stepping_) throw std::runtime_error("this simulation is in the middle of a step");
 }
 
 const Simulation& SimulationInPython::simulation() const {
@@ -129,29 +149,23 @@ py::array SimulationInPython::velocities(const Numbers& force, const Numbers& to
 }
 
 py::dict SimulationInPython::contacts() const {
-    const Contacts& contacts = simulation().contacts();
-    const std::vector<std::uint64_t>& ids = simulation_.contact_ids();
-    const std::size_t count = report_ && report_->status == LcpStatus::converged ? contacts.size() : 0;
+    const bool known = simulation().contacts().size() > 0 && report_ && report_->status == LcpStatus::converged;
+    const std::size_t count = known ? simulation_.contacts().size() : 0;
     const py::ssize_t rows = static_cast<py::ssize_t>(count);
     py::array_t<std::uint64_t> id({rows, py::ssize_t{2}});
     py::array_t<std::int32_t> image({rows, py::ssize_t{3}});
-    std::vector<double> arm_i(count), arm_j(count), gap(count);
+    std::vector<double> arm_i(count), arm_j(count), gap(count), force(simulation_.contact_solution().gamma);
     std::vector<Vec3> normal(count);
-    for (std::size_t l = 0; l < count; ++l) {
-        const Contact& contact = contacts.contact[l];
-        const bool turned = ids[contact.i] > ids[contact.j];  // the smaller id first
-        const auto row = static_cast<py::ssize_t>(l);
-        id.mutable_at(row, 0) = ids[turned ? contact.j : contact.i];
-        id.mutable_at(row, 1) = ids[turned ? contact.i : contact.j];
-        for (std::size_t a = 0; a < 3; ++a)
-            image.mutable_at(row, static_cast<py::ssize_t>(a)) = turned ? -contacts.image[l][a] : contacts.image[l][a];
-        normal[l] = turned ? -contact.normal : contact.normal;
-        arm_i[l] = turned ? contact.arm_j : contact.arm_i;
-        arm_j[l] = turned ? contact.arm_i : contact.arm_j;
-        gap[l] = contact.gap;
-    }
-    std::vector<double> force = simulation_.contact_solution().gamma;
     force.resize(count);
+    for (std::size_t l = 0; l < count; ++l) {
+        const ContactById contact = contact_by_id(simulation_, l);
+        std::copy(contact.id.begin(), contact.id.end(), id.mutable_data(static_cast<py::ssize_t>(l), 0));
+        std::copy(contact.image.begin(), contact.image.end(), image.mutable_data(static_cast<py::ssize_t>(l), 0));
+        normal[l] = contact.normal;
+        arm_i[l] = contact.arm[0];
+        arm_j[l] = contact.arm[1];
+        gap[l] = simulation_.contacts().contact[l].gap;
+    }
     py::dict columns;
     columns["id"] = id;
     columns["image"] = image;
@@ -163,7 +177,18 @@ py::dict SimulationInPython::contacts() const {
     return columns;
 }
 
+const std::optional<StepReport>& SimulationInPython::report() const {
+    require_rest();
+    return report_;
+}
+
+std::string SimulationInPython::failure() const {
+    require_rest();
+    return failure_;
+}
+
 py::array SimulationInPython::series() const {
+    require_rest();
     const auto columns = static_cast<py::ssize_t>(series_columns(scene_.scene).size());
     Numbers table({static_cast<py::ssize_t>(rows_.size()), columns});
     double* place = table.mutable_data();

@@ -32,8 +32,8 @@ public:
     std::shared_ptr<RodsInOrder> rods();
     const Simulation& simulation() const;
     const SceneInPython& scene() const { return scene_; }
-    const std::optional<StepReport>& report() const { return report_; }
-    std::string failure() const { return failure_; }  ///< of the last step; "" if it was sound
+    const std::optional<StepReport>& report() const;
+    std::string failure() const;  ///< of the last step; "" if it was sound
     py::array velocities(const Numbers& force, const Numbers& torque);
     py::dict contacts() const;
     py::array series() const;  ///< (rows, columns)
@@ -45,6 +45,7 @@ public:
 private:
     class Step;
     void require_rest() const;
+    void require_between_steps() const;
     void write_row();
 
     SceneInPython scene_;

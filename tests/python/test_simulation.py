@@ -370,6 +370,10 @@ def test_a_motion_cannot_make_steps(rods):
     with pytest.raises(RuntimeError, match="in the middle of a step"):
         simulation.step()
     assert simulation.clock.step == 0
+    grows = jostle.Simulation(rods)
+    grows.add_motion(lambda given, clock: grows.add_motion(lambda *_: 0) or 0 * given.centre)
+    with pytest.raises(RuntimeError, match="in the middle of a step"):
+        grows.run(2)
 
 
 def test_a_motion_that_holds_its_simulation_is_collected(rods):
