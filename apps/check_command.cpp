@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "jostle/io/rods_of_scene.hpp"
 #include "jostle/io/scene_reader.hpp"
 #include "jostle/io/scene_writer.hpp"
 #include "jostle/io/springs_file.hpp"
@@ -14,7 +15,6 @@
 #include "jostle/simulation/assemble.hpp"
 #include "jostle/simulation/rod_size.hpp"
 #include "jostle/simulation/validate_scene.hpp"
-#include "rods_of_scene.hpp"
 
 using namespace jostle;
 

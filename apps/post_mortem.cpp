@@ -26,8 +26,8 @@ Json worst_contacts(const Simulation& simulation, Rank&& rank) {
     for (std::size_t k = 0; k < count; ++k) {
         const std::size_t l = order[k];
         const Contact& contact = contacts.contact[l];
-        list.push_back({{"id_i", simulation.rods().id[contact.i]},
-                        {"id_j", simulation.rods().id[contact.j]},
+        list.push_back({{"id_i", simulation.contact_ids()[contact.i]},
+                        {"id_j", simulation.contact_ids()[contact.j]},
                         {"image", contacts.image[l]},
                         {"gap", contact.gap},
                         {"force", l < gamma.size() ? gamma[l] : 0.0}});
@@ -36,20 +36,6 @@ Json worst_contacts(const Simulation& simulation, Rank&& rank) {
 }
 
 }  // namespace
-
-std::string description(LcpStatus status) {
-    switch (status) {
-        case LcpStatus::converged:
-            return "converged";
-        case LcpStatus::iteration_limit:
-            return "the contact problem was not solved within solver.max_iterations";
-        case LcpStatus::infeasible:
-            return "the contact problem has no solution: the rods are packed too densely to be moved apart";
-        case LcpStatus::not_finite:
-            return "the contact problem holds numbers that are not finite";
-    }
-    return "";
-}
 
 std::string advice(const StepReport& report) {
     switch (report.status) {

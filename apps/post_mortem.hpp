@@ -4,9 +4,6 @@
 
 #include "jostle/simulation/simulation.hpp"
 
-/// Why a contact problem was not solved, in words.
-std::string description(jostle::LcpStatus status);
-
 /// What the user can do about a failed step, one or two lines.
 std::string advice(const jostle::StepReport& report);
 

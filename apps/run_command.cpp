@@ -9,18 +9,19 @@
 #include <filesystem>
 
 #include "jostle/io/h5md_writer.hpp"
+#include "jostle/io/rods_of_scene.hpp"
 #include "jostle/io/scene_reader.hpp"
 #include "jostle/io/scene_writer.hpp"
+#include "jostle/io/series_columns.hpp"
 #include "jostle/io/units.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/simulation/assemble.hpp"
 #include "jostle/simulation/largest_overlap.hpp"
+#include "jostle/simulation/step_failure.hpp"
 #include "post_mortem.hpp"
 #include "progress_line.hpp"
-#include "rods_of_scene.hpp"
 #include "run_files.hpp"
 #include "run_record.hpp"
-#include "series_columns.hpp"
 #include "stop_request.hpp"
 #include "summary.hpp"
 #include "version.hpp"
@@ -89,9 +90,8 @@ public:
         while (!length_.is_over(files_.series())) {
             if (simulation_.rods().size() == 0) return die_out();
             const StepReport report = simulation_.step();
-            if (const auto failure = failure_of(report)) return give_up(report, *failure);
-            sums_.add(report);
-            if (sums_.field) sums_.field->add(simulation_.collision_moments(), simulation_.rods().centre);
+            if (const auto failure = step_failure(report, scene_, simulation_.rods())) return give_up(report, *failure);
+            sums_.add(report, simulation_);
             if (scene_.growth.rate > 0.0) files_.append_lineage(simulation_);
             if (simulation_.rods().size() == 0) continue;
             write_what_is_due();
@@ -102,25 +102,11 @@ public:
     }
 
 private:
-    std::optional<std::string> failure_of(const StepReport& report) const {
-        if (report.status != LcpStatus::converged) return description(report.status);
-        const double limit = scene_.contact.overlap_limit * smallest_diameter();
-        if (report.max_overlap > limit)
-            return fmt::format("rods overlap by {:.3g}, more than contact.overlap_limit allows ({:.3g})",
-                               report.max_overlap, limit);
-        return std::nullopt;
-    }
-
-    double smallest_diameter() const {
-        const auto& diameter = simulation_.rods().diameter;
-        return diameter.empty() ? scene_.rods.diameter : *std::min_element(diameter.begin(), diameter.end());
-    }
-
     void write_what_is_due() {
         const std::uint64_t step = simulation_.clock().step;
         const auto due = [step](std::uint64_t every) { return every > 0 && step % every == 0; };
         if (due(scene_.output.series_every)) {
-            measure_active_stress();
+            sums_.look_at_swimmers(scene_, simulation_);
             files_.append_row(series_row(simulation_, sums_));
             if (scene_.output.contacts) files_.append_contacts(simulation_);
             sums_.start_row();
@@ -131,15 +117,6 @@ private:
             sums_.field->clear();
         }
         if (due(scene_.output.checkpoint_every)) checkpoint();
-    }
-
-    void measure_active_stress() {
-        if (!sums_.active_stress) return;
-        const Rods& rods = simulation_.rods();
-        const StepContext context = {scene_.seed, simulation_.clock().step, simulation_.settings().time_step};
-        const std::vector<Vec3> force =
-            SelfPropulsion(swimming_of(scene_)).forces(rods, simulation_.mobility(), context);
-        sums_.active_virial = sums_.active_stress->virial(rods, simulation_.box(), force);
     }
 
     void checkpoint() {
@@ -165,7 +142,7 @@ private:
         };
         progress_.show(
             {simulation_.clock().step, simulation_.clock().time, total_volume(rods) / simulation_.box().volume(),
-             last("Z"), sums_.run_max_overlap / smallest_diameter(), last("iterations"), last("contacts"),
+             last("Z"), sums_.run_max_overlap / smallest_diameter(scene_, rods), last("iterations"), last("contacts"),
              length_.fraction_done(series.rows())},
             force);
     }
@@ -257,19 +234,6 @@ bool has_rows(const std::string& series) {
     if (!file_exists(series)) return false;
     const std::string content = read_file(series);
     return std::count(content.begin(), content.end(), '\n') > 1;
-}
-
-/// Sums at the beginning of a run.
-StepSums first_sums(const Scene& scene, const Simulation& simulation) {
-    StepSums sums;
-    sums.field = make_field(scene, simulation.box());
-    if (scene.motion.self_propulsion == 0.0) return sums;
-    const Rods& rods = simulation.rods();
-    const double row_time = simulation.settings().time_step * static_cast<double>(scene.output.series_every);
-    const double rows = std::ceil(active_stress_lag(scene, simulation.mobility(), rods.size()) / row_time - 1e-9);
-    sums.active_stress.emplace(static_cast<std::uint64_t>(std::clamp(rows, 1.0, 1e15)));
-    sums.active_stress->begin(rods, simulation.box());
-    return sums;
 }
 
 ExitCode start_run(const RunOptions& options, const Scene& scene, const std::string& resolved,

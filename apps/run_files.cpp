@@ -4,10 +4,10 @@
 #include <limits>
 #include <utility>
 
+#include "jostle/io/series_columns.hpp"
 #include "jostle/io/units.hpp"
 #include "jostle/rods/space_filling_order.hpp"
 #include "jostle/stress/stress_per_rod.hpp"
-#include "series_columns.hpp"
 
 using namespace jostle;
 
@@ -167,21 +167,21 @@ void RunFiles::append_frame(const Simulation& simulation) {
 
 void RunFiles::append_contacts(const Simulation& simulation) {
     const Contacts& contacts = simulation.contacts();
-    const Rods& rods = simulation.rods();
+    const std::vector<std::uint64_t>& ids = simulation.contact_ids();
     for (std::size_t l = 0; l < contacts.size(); ++l) {
         const double force = simulation.contact_solution().gamma[l];
         if (force <= 0.0) continue;
         Contact contact = contacts.contact[l];
         Image image = contacts.image[l];
-        if (rods.id[contact.i] > rods.id[contact.j]) {  // the smaller id first
+        if (ids[contact.i] > ids[contact.j]) {  // the smaller id first
             std::swap(contact.i, contact.j);
             std::swap(contact.arm_i, contact.arm_j);
             contact.normal = -contact.normal;
             for (std::int32_t& edges : image) edges = -edges;
         }
         const std::vector<double> row = {static_cast<double>(simulation.clock().step),
-                                         static_cast<double>(rods.id[contact.i]),
-                                         static_cast<double>(rods.id[contact.j]),
+                                         static_cast<double>(ids[contact.i]),
+                                         static_cast<double>(ids[contact.j]),
                                          static_cast<double>(image[0]),
                                          static_cast<double>(image[1]),
                                          static_cast<double>(image[2]),

@@ -6,10 +6,10 @@
 #include "jostle/io/checkpoint.hpp"
 #include "jostle/io/run_directory.hpp"
 #include "jostle/io/series_file.hpp"
+#include "jostle/io/step_sums.hpp"
 #include "jostle/io/trajectory_journal.hpp"
 #include "jostle/simulation/scene.hpp"
 #include "jostle/simulation/simulation.hpp"
-#include "step_sums.hpp"
 
 /// The files that grow while a run lasts, kept in step with its checkpoints.
 ///
@@ -18,7 +18,7 @@ class RunFiles {
 public:
     /// Files of a new run; `simulation` stands at its beginning.
     RunFiles(const jostle::RunDirectory& directory, const jostle::Scene& scene, std::string resolved_scene,
-             const jostle::Simulation& simulation, const StepSums& sums);
+             const jostle::Simulation& simulation, const jostle::StepSums& sums);
     /// Files of a run that goes on from a checkpoint. Nothing is cut before all files were found to be sound.
     RunFiles(const jostle::RunDirectory& directory, const jostle::Scene& scene, std::string resolved_scene,
              const jostle::Checkpoint& checkpoint);
@@ -33,7 +33,7 @@ public:
     void append_lineage(const jostle::Simulation& simulation);
 
     /// Makes everything so far durable, and the point to go on from.
-    void write_checkpoint(const jostle::Simulation& simulation, const StepSums& sums);
+    void write_checkpoint(const jostle::Simulation& simulation, const jostle::StepSums& sums);
 
     /// All rows so far.
     const jostle::SeriesTable& series() const { return series_; }

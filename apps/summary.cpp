@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jostle/io/series_columns.hpp"
 #include "jostle/io/units.hpp"
 #include "jostle/math/symmetric_eigen.hpp"
 #include "jostle/statistics/equilibration.hpp"
@@ -12,7 +13,6 @@
 #include "jostle/statistics/time_series.hpp"
 #include "jostle/stress/spherocylinder_moments.hpp"
 #include "jostle/stress/stress.hpp"
-#include "series_columns.hpp"
 
 using namespace jostle;
 using Json = nlohmann::ordered_json;

@@ -8,9 +8,9 @@
 #include "jostle/io/h5md_writer.hpp"
 #include "jostle/io/run_directory.hpp"
 #include "jostle/io/scene_reader.hpp"
+#include "jostle/io/series_columns.hpp"
 #include "jostle/io/series_file.hpp"
 #include "jostle/io/trajectory_journal.hpp"
-#include "series_columns.hpp"
 
 using namespace jostle;
 

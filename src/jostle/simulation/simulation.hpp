@@ -48,6 +48,9 @@ public:
     Simulation(Box box, Rods rods, Clock clock, std::unique_ptr<Mobility> mobility,
                std::vector<std::unique_ptr<Motion>> motions, const SimulationSettings& settings);
 
+    /// Adds a motion, felt from the next step on, after those that are there.
+    void add(std::unique_ptr<Motion> motion) { motions_.push_back(std::move(motion)); }
+
     /// Makes one step (step.cpp). Where contacts cannot be resolved the report says so, and rods and clock stay as they
     /// were.
     StepReport step();
@@ -65,6 +68,8 @@ public:
     const ContactSolution& contact_solution() const { return solution_; }
     /// The parts of its collision stress, if the settings ask for them.
     const CollisionMoments& collision_moments() const { return moments_; }
+    /// Ids of the rows that these refer to: those of `rods()`, but where cells have died since.
+    const std::vector<std::uint64_t>& contact_ids() const { return ids_before_.empty() ? rods_.id : ids_before_; }
 
 private:
     void add_springs();
@@ -97,6 +102,7 @@ private:
     const Springs* springs_ = nullptr;  ///< among the motions; none: nullptr
     std::optional<Growth> growth_;
     std::vector<LineageEvent> lineage_;
+    std::vector<std::uint64_t> ids_before_;  ///< (N) of the rows in the last step, where cells may have died since
 
     CollisionSearch search_;
     std::vector<double> shift_;         ///< (N) upper bound of each rod's part in the shift of a gap

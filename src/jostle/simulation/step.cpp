@@ -75,6 +75,7 @@ void Simulation::find_known_velocity() {
 
 // Theory 2.2: all pairs of points that may touch in this step.
 void Simulation::find_contacts(StepReport& report) {
+    ids_before_.clear();
     report.max_overlap = search_.find(rods_, box_, motion(), contacts_);
 }
 
@@ -250,7 +251,10 @@ void Simulation::grow() {
     if (!growth_) return;
     growth_->lengthen(rods_, solution_.rods, solution_.forces, settings_.time_step);
     lineage_.clear();
-    if (growth_->is_due(clock_.step)) lineage_ = growth_->divide(rods_, box_, clock_.step, settings_.time_step);
+    if (growth_->is_due(clock_.step)) {
+        ids_before_ = rods_.id;
+        lineage_ = growth_->divide(rods_, box_, clock_.step, settings_.time_step);
+    }
     if (lineage_.empty())
         find_mobilities();
     else

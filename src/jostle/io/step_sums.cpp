@@ -1,12 +1,15 @@
-#include "step_sums.hpp"
+#include "jostle/io/step_sums.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
 #include "jostle/error/input_error.hpp"
+#include "jostle/motion/self_propulsion.hpp"
+#include "jostle/simulation/assemble.hpp"
 
-using namespace jostle;
+namespace jostle {
 
 void StepSums::add(const StepReport& report) {
     steps += 1.0;
@@ -22,6 +25,19 @@ void StepSums::add(const StepReport& report) {
     max_overlap = std::max(max_overlap, report.max_overlap);
     run_max_overlap = std::max(run_max_overlap, report.max_overlap);
     run_iterations += static_cast<double>(report.iterations);
+}
+
+void StepSums::add(const StepReport& report, const Simulation& simulation) {
+    add(report);
+    if (field) field->add(simulation.collision_moments(), simulation.rods().centre);
+}
+
+void StepSums::look_at_swimmers(const Scene& scene, const Simulation& simulation) {
+    if (!active_stress) return;
+    const Rods& swimmers = simulation.rods();
+    const StepContext context = {scene.seed, simulation.clock().step, simulation.settings().time_step};
+    const std::vector<Vec3> force = SelfPropulsion(swimming_of(scene)).forces(swimmers, simulation.mobility(), context);
+    active_virial = active_stress->virial(swimmers, simulation.box(), force);
 }
 
 void StepSums::start_row() {
@@ -84,3 +100,17 @@ StepSums StepSums::from_numbers(const std::vector<double>& numbers) {
     require(rest.empty());
     return sums;
 }
+
+StepSums first_sums(const Scene& scene, const Simulation& simulation) {
+    StepSums sums;
+    sums.field = make_field(scene, simulation.box());
+    if (scene.motion.self_propulsion == 0.0) return sums;
+    const Rods& rods = simulation.rods();
+    const double row_time = simulation.settings().time_step * static_cast<double>(scene.output.series_every);
+    const double rows = std::ceil(active_stress_lag(scene, simulation.mobility(), rods.size()) / row_time - 1e-9);
+    sums.active_stress.emplace(static_cast<std::uint64_t>(std::clamp(rows, 1.0, 1e15)));
+    sums.active_stress->begin(rods, simulation.box());
+    return sums;
+}
+
+}  // namespace jostle

@@ -4,9 +4,11 @@
 #include <vector>
 
 #include "jostle/io/series_file.hpp"
+#include "jostle/io/step_sums.hpp"
 #include "jostle/simulation/scene.hpp"
 #include "jostle/simulation/simulation.hpp"
-#include "step_sums.hpp"
+
+namespace jostle {
 
 /// Names of the nine stress columns, by rows of the tensor.
 inline constexpr std::array<const char*, 9> stress_column_names = {"stress_xx", "stress_xy", "stress_xz",
@@ -32,7 +34,9 @@ inline constexpr std::array<const char*, 6> order_tensor_column_names = {"order_
                                                                          "order_yy", "order_yz", "order_zz"};
 
 /// The columns of series.csv, with unit, definition and sign of each.
-std::vector<jostle::SeriesColumn> series_columns(const jostle::Scene& scene);
+std::vector<SeriesColumn> series_columns(const Scene& scene);
 
 /// One row: means over the steps in `sums`, and the order of the rods as they are now.
-std::vector<double> series_row(const jostle::Simulation& simulation, const StepSums& sums);
+std::vector<double> series_row(const Simulation& simulation, const StepSums& sums);
+
+}  // namespace jostle

@@ -3,16 +3,19 @@
 #include <optional>
 #include <vector>
 
-#include "jostle/simulation/step_report.hpp"
+#include "jostle/simulation/scene.hpp"
+#include "jostle/simulation/simulation.hpp"
 #include "jostle/stress/active_stress.hpp"
 #include "jostle/stress/stress_field.hpp"
+
+namespace jostle {
 
 /// What is added up over the steps of one row of the series, and over the whole run. Goes into every checkpoint.
 struct StepSums {
     // since the last row
     double steps = 0.0;
     double rods = 0.0;  ///< summed over the steps
-    jostle::Mat3 collision_virial, spring_virial, centre_of_mass_virial, centre_line_virial;
+    Mat3 collision_virial, spring_virial, centre_of_mass_virial, centre_line_virial;
     double contacts = 0.0;
     double active_contacts = 0.0;
     double iterations = 0.0;
@@ -22,14 +25,25 @@ struct StepSums {
     double run_max_overlap = 0.0;
     double run_iterations = 0.0;
     // of swimmers
-    std::optional<jostle::ActiveStress> active_stress;
-    jostle::Mat3 active_virial;  ///< V times it, at the step of the row
+    std::optional<ActiveStress> active_stress;
+    Mat3 active_virial;  ///< V times it, at the step of the row
     // since the last field
-    std::optional<jostle::StressField> field;
+    std::optional<StressField> field;
 
-    void add(const jostle::StepReport& report);
+    /// Adds a step that was just made.
+    void add(const StepReport& report, const Simulation& simulation);
+    /// Measures the active stress, where rods swim; due at every row.
+    void look_at_swimmers(const Scene& scene, const Simulation& simulation);
     void start_row();
 
     std::vector<double> to_numbers() const;
     static StepSums from_numbers(const std::vector<double>& numbers);
+
+private:
+    void add(const StepReport& report);
 };
+
+/// Sums at the beginning of a run.
+StepSums first_sums(const Scene& scene, const Simulation& simulation);
+
+}  // namespace jostle

@@ -1,4 +1,4 @@
-#include "series_columns.hpp"
+#include "jostle/io/series_columns.hpp"
 
 #include <cmath>
 
@@ -6,7 +6,7 @@
 #include "jostle/statistics/order_parameter.hpp"
 #include "jostle/stress/stress.hpp"
 
-using namespace jostle;
+namespace jostle {
 
 namespace {
 
@@ -123,3 +123,5 @@ std::vector<double> series_row(const Simulation& simulation, const StepSums& sum
         for (const double element : sum->m) row.push_back(element / (sums.steps * volume));
     return row;
 }
+
+}  // namespace jostle

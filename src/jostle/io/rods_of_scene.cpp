@@ -1,4 +1,4 @@
-#include "rods_of_scene.hpp"
+#include "jostle/io/rods_of_scene.hpp"
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@
 #include "jostle/simulation/start.hpp"
 #include "jostle/simulation/validate_scene.hpp"
 
-using namespace jostle;
+namespace jostle {
 
 std::optional<Rods> rods_from_file(const Scene& scene, const std::filesystem::path& scene_path) {
     if (scene.rods.start != StartKind::file) return std::nullopt;
@@ -89,3 +89,5 @@ Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_pa
         throw error.with_place({scene_path.string()});
     }
 }
+
+}  // namespace jostle

@@ -1,0 +1,69 @@
+#include "bindings/bindings.hpp"
+#include "jostle/error/input_error.hpp"
+#include "jostle/io/durable_file.hpp"
+
+namespace jostle::python {
+
+namespace py = pybind11;
+
+namespace {
+
+/// The exception types live as long as the interpreter.
+PyObject* input_error = nullptr;
+PyObject* disk_error = nullptr;
+
+constexpr const char* input_error_text =
+    "Input that jostle refuses; its text is that of the command.\n\n"
+    "Attributes: key, value, problem, allowed, suggestion (texts, \"\" where there is nothing to say), file, line, "
+    "column\n"
+    "(where the value stands, \"\" and 0 if it comes from no file).";
+constexpr const char* disk_error_text = "A file could not be read or written.";
+
+void raise(const InputError& error) {
+    const InputError::Parts& parts = error.parts();
+    py::object exception = py::handle(input_error)(error.what());
+    exception.attr("key") = parts.key;
+    exception.attr("value") = parts.value;
+    exception.attr("problem") = parts.problem;
+    exception.attr("allowed") = parts.allowed;
+    exception.attr("suggestion") = parts.suggestion;
+    exception.attr("file") = parts.place.file;
+    exception.attr("line") = parts.place.file.empty() ? 0 : parts.place.line;
+    exception.attr("column") = parts.place.file.empty() ? 0 : parts.place.column;
+    PyErr_SetObject(input_error, exception.ptr());
+}
+
+void translate(std::exception_ptr pointer) {
+    try {
+        if (pointer) std::rethrow_exception(pointer);
+    } catch (const InputError& error) {
+        raise(error);
+    } catch (const DiskError& error) {
+        PyErr_SetString(disk_error, error.what());
+    }
+}
+
+}  // namespace
+
+void bind_errors(py::module_& module) {
+    input_error = PyErr_NewExceptionWithDoc("jostle.InputError", input_error_text, PyExc_ValueError, nullptr);
+    disk_error = PyErr_NewExceptionWithDoc("jostle.DiskError", disk_error_text, PyExc_OSError, nullptr);
+    module.attr("InputError") = py::handle(input_error);
+    module.attr("DiskError") = py::handle(disk_error);
+    py::register_exception_translator(translate);
+    module.def(
+        "refuse",
+        [](std::string key, std::string value, std::string problem, std::string allowed, std::string suggestion,
+           std::string file) {
+            throw InputError({std::move(key),
+                              std::move(value),
+                              std::move(problem),
+                              std::move(allowed),
+                              std::move(suggestion),
+                              {std::move(file), 0, 0}});
+        },
+        py::arg("key"), py::arg("value"), py::arg("problem"), py::arg("allowed") = "", py::arg("suggestion") = "",
+        py::arg("file") = "");
+}
+
+}  // namespace jostle::python

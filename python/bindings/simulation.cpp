@@ -1,0 +1,319 @@
+#include "bindings/simulation.hpp"
+
+#include <pybind11/stl.h>
+
+#include "bindings/bindings.hpp"
+#include "bindings/python_motion.hpp"
+#include "jostle/error/input_error.hpp"
+#include "jostle/io/rods_of_scene.hpp"
+#include "jostle/io/scene_reader.hpp"
+#include "jostle/io/scene_writer.hpp"
+#include "jostle/io/series_columns.hpp"
+#include "jostle/simulation/assemble.hpp"
+#include "jostle/simulation/step_failure.hpp"
+#include "jostle/simulation/validate_scene.hpp"
+
+namespace jostle::python {
+
+namespace {
+
+/// A contact as contacts.csv has it: the smaller id first.
+struct ContactById {
+    std::array<std::uint64_t, 2> id;
+    Image image;
+    Vec3 normal;
+    std::array<double, 2> arm;
+};
+
+ContactById contact_by_id(const Simulation& simulation, std::size_t l) {
+    const Contact& contact = simulation.contacts().contact[l];
+    const Image& image = simulation.contacts().image[l];
+    const std::uint64_t i = simulation.contact_ids()[contact.i], j = simulation.contact_ids()[contact.j];
+    if (i <= j) return {{i, j}, image, contact.normal, {contact.arm_i, contact.arm_j}};
+    return {{j, i}, {-image[0], -image[1], -image[2]}, -contact.normal, {contact.arm_j, contact.arm_i}};
+}
+
+Simulation at_the_start(const SceneInPython& scene) {
+    validate(scene.scene);
+    Beginning beginning = beginning_of(scene.scene, scene.path);
+    return assemble(scene.scene, beginning.box, std::move(beginning.rods), {}, std::move(beginning.springs));
+}
+
+}  // namespace
+
+/// Marks that a step is under way.
+class SimulationInPython::Step {
+public:
+    explicit Step(SimulationInPython& owner) : owner_(owner) { owner_.stepping_ = std::this_thread::get_id(); }
+    ~Step() {
+        owner_.stepping_.reset();
+        owner_.rods_.reset();
+    }
+    Step(const Step&) = delete;
+    Step& operator=(const Step&) = delete;
+
+private:
+    SimulationInPython& owner_;
+};
+
+SimulationInPython::SimulationInPython(SceneInPython scene)
+    : scene_(std::move(scene)), simulation_(at_the_start(scene_)), sums_(first_sums(scene_.scene, simulation_)) {}
+
+SimulationInPython::SimulationInPython(SceneInPython scene, Checkpoint checkpoint)
+    : scene_(std::move(scene)),
+      simulation_(assemble(scene_.scene, checkpoint.box, std::move(checkpoint.rods), {checkpoint.step, checkpoint.time},
+                           std::move(checkpoint.springs))),
+      sums_(StepSums::from_numbers(checkpoint.accumulators)) {}
+
+void SimulationInPython::step() {
+    require_between_steps();
+    if (simulation_.rods().size() == 0) throw std::runtime_error("all cells have died");
+    const Step under_way(*this);
+    {
+        const py::gil_scoped_release release;
+        report_ = simulation_.step();
+        failure_ = step_failure(*report_, scene_.scene, simulation_.rods()).value_or("");
+        if (report_->status != LcpStatus::converged) return;
+        sums_.add(*report_, simulation_);
+        const Scene::Output& output = scene_.scene.output;
+        if (simulation_.clock().step % output.series_every == 0) write_row();
+        if (sums_.field && simulation_.clock().step % output.field_every == 0) sums_.field->clear();
+    }
+}
+
+void SimulationInPython::write_row() {
+    if (simulation_.rods().size() == 0) return;
+    sums_.look_at_swimmers(scene_.scene, simulation_);
+    rows_.push_back(series_row(simulation_, sums_));
+    sums_.start_row();
+}
+
+bool SimulationInPython::run(std::uint64_t steps) {
+    for (std::uint64_t k = 0; k < steps && simulation().rods().size() > 0; ++k) {
+        step();
+        if (!failure_.empty()) return false;
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    }
+    return true;
+}
+
+void SimulationInPython::add_motion(py::function function) {
+    require_between_steps();
+    functions_.push_back(std::move(function));
+    const std::size_t number = functions_.size() - 1;
+    simulation_.add(std::make_unique<PythonMotion>(
+        [this, number](const StepContext& context) { return functions_.at(number)(context.step, context.time_step); }));
+}
+
+/// Nothing may be read while another thread makes a step; within a motion the state is that before the step.
+void SimulationInPython::require_rest() const {
+    if (stepping_ && *stepping_ != std::this_thread::get_id())
+        throw std::runtime_error("another thread makes a step of this simulation");
+}
+
+void SimulationInPython::require_between_steps() const {
+    if (stepping_) throw std::runtime_error("this simulation is in the middle of a step");
+}
+
+const Simulation& SimulationInPython::simulation() const {
+    require_rest();
+    return simulation_;
+}
+
+std::shared_ptr<RodsInOrder> SimulationInPython::rods() {
+    if (!rods_) rods_ = std::make_shared<RodsInOrder>(simulation().rods());
+    return rods_;
+}
+
+py::array SimulationInPython::velocities(const Numbers& force, const Numbers& torque) {
+    const Rods& rows = simulation().rods();
+    const auto forces = vectors_in(force, "force"), torques = vectors_in(torque, "torque");
+    const py::ssize_t count = static_cast<py::ssize_t>(rows.size());
+    require_shape(force, {count, 3}, "force");
+    require_shape(torque, {count, 3}, "torque");
+    const std::shared_ptr<RodsInOrder> in_order = rods();
+    Forces given(rows.size());
+    Velocities found(rows.size());
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        given.force[in_order->order()[k]] = forces[k];
+        given.torque[in_order->order()[k]] = torques[k];
+    }
+    simulation_.mobility().apply(rows, given, found);
+    Numbers result({count, py::ssize_t{6}});
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        const std::uint32_t row = in_order->order()[k];
+        for (int a = 0; a < 3; ++a) {
+            result.mutable_at(static_cast<py::ssize_t>(k), a) = found.linear[row][a];
+            result.mutable_at(static_cast<py::ssize_t>(k), a + 3) = found.angular[row][a];
+        }
+    }
+    return result;
+}
+
+py::dict SimulationInPython::contacts() const {
+    const bool known = simulation().contacts().size() > 0 && report_ && report_->status == LcpStatus::converged;
+    const std::size_t count = known ? simulation_.contacts().size() : 0;
+    const py::ssize_t rows = static_cast<py::ssize_t>(count);
+    py::array_t<std::uint64_t> id({rows, py::ssize_t{2}});
+    py::array_t<std::int32_t> image({rows, py::ssize_t{3}});
+    std::vector<double> arm_i(count), arm_j(count), gap(count), force(simulation_.contact_solution().gamma);
+    std::vector<Vec3> normal(count);
+    force.resize(count);
+    for (std::size_t l = 0; l < count; ++l) {
+        const ContactById contact = contact_by_id(simulation_, l);
+        std::copy(contact.id.begin(), contact.id.end(), id.mutable_data(static_cast<py::ssize_t>(l), 0));
+        std::copy(contact.image.begin(), contact.image.end(), image.mutable_data(static_cast<py::ssize_t>(l), 0));
+        normal[l] = contact.normal;
+        arm_i[l] = contact.arm[0];
+        arm_j[l] = contact.arm[1];
+        gap[l] = simulation_.contacts().contact[l].gap;
+    }
+    py::dict columns;
+    columns["id"] = id;
+    columns["image"] = image;
+    columns["normal"] = array_of(std::span<const Vec3>(normal));
+    columns["arm_i"] = array_of(std::span<const double>(arm_i));
+    columns["arm_j"] = array_of(std::span<const double>(arm_j));
+    columns["gap"] = array_of(std::span<const double>(gap));
+    columns["force"] = array_of(std::span<const double>(force));
+    return columns;
+}
+
+const std::optional<StepReport>& SimulationInPython::report() const {
+    require_rest();
+    return report_;
+}
+
+std::string SimulationInPython::failure() const {
+    require_rest();
+    return failure_;
+}
+
+py::array SimulationInPython::series() const {
+    require_rest();
+    const auto columns = static_cast<py::ssize_t>(series_columns(scene_.scene).size());
+    Numbers table({static_cast<py::ssize_t>(rows_.size()), columns});
+    double* place = table.mutable_data();
+    for (const std::vector<double>& row : rows_) place = std::copy(row.begin(), row.end(), place);
+    return table;
+}
+
+void SimulationInPython::save(const std::string& folder) const {
+    const Simulation& now = simulation();
+    Checkpoint checkpoint;
+    checkpoint.scene = to_toml(scene_.scene);
+    checkpoint.step = now.clock().step;
+    checkpoint.time = now.clock().time;
+    checkpoint.box = now.box();
+    checkpoint.rods = now.rods();
+    checkpoint.springs = now.settings().springs;
+    checkpoint.accumulators = sums_.to_numbers();
+    write_checkpoint(folder, checkpoint);
+}
+
+int SimulationInPython::traverse(visitproc visit, void* argument) const {
+    for (const py::function& function : functions_)
+        if (const int stop = visit(function.ptr(), argument)) return stop;
+    return 0;
+}
+
+namespace {
+
+std::unique_ptr<SimulationInPython> resumed(const std::string& folder) {
+    auto checkpoint = latest_checkpoint(folder);
+    if (!checkpoint)
+        throw InputError({.key = "checkpoint",
+                          .problem = "there is none to go on from",
+                          .suggestion = "Give the folder of a run, or one that Simulation.save wrote",
+                          .place = {folder}});
+    SceneInPython scene{parse_scene(checkpoint->scene, folder + "/checkpoint"), {}};
+    return std::make_unique<SimulationInPython>(std::move(scene), std::move(*checkpoint));
+}
+
+py::object report_of(const SimulationInPython& self) {
+    if (!self.report()) return py::none();
+    const StepReport& report = *self.report();
+    py::dict entries;
+    entries["step"] = report.step;
+    entries["time"] = report.time;
+    entries["rods"] = report.rods;
+    entries["converged"] = report.status == LcpStatus::converged;
+    entries["residual"] = report.residual;
+    entries["iterations"] = report.iterations;
+    entries["solves"] = report.solves;
+    entries["contacts"] = report.contacts;
+    entries["active_contacts"] = report.active_contacts;
+    entries["max_overlap"] = report.max_overlap;
+    entries["collision_virial"] = array_of(report.collision_virial);
+    entries["spring_virial"] = array_of(report.spring_virial);
+    py::dict seconds;
+    for (std::size_t k = 0; k < step_phase_count; ++k) seconds[step_phase_names[k]] = report.seconds[k];
+    entries["seconds"] = seconds;
+    return entries;
+}
+
+py::list lineage_of(const SimulationInPython& self) {
+    py::list events;
+    for (const LineageEvent& event : self.simulation().lineage())
+        events.append(py::make_tuple(event.kind == LineageEvent::Kind::birth, event.id, event.mother, event.length));
+    return events;
+}
+
+std::vector<std::array<std::string, 5>> columns_of(const SimulationInPython& self) {
+    std::vector<std::array<std::string, 5>> columns;
+    for (const SeriesColumn& column : series_columns(self.scene().scene))
+        columns.push_back({column.name, column.unit, column.symbol, column.definition, column.sign});
+    return columns;
+}
+
+/// Lets the garbage collector see the functions that a simulation holds, which may hold the simulation.
+void let_collect(PyHeapTypeObject* heap_type) {
+    PyTypeObject* type = &heap_type->ht_type;
+    type->tp_flags |= Py_TPFLAGS_HAVE_GC;
+    type->tp_traverse = [](PyObject* self, visitproc visit, void* arg) {
+        Py_VISIT(Py_TYPE(self));
+        const py::handle handle(self);
+        if (!py::detail::get_type_info(Py_TYPE(self)) ||
+            !reinterpret_cast<py::detail::instance*>(self)->get_value_and_holder().holder_constructed())
+            return 0;
+        return handle.cast<const SimulationInPython&>().traverse(visit, arg);
+    };
+    type->tp_clear = [](PyObject* self) {
+        py::handle(self).cast<SimulationInPython&>().clear();
+        return 0;
+    };
+}
+
+}  // namespace
+
+void bind_simulation(py::module_& module) {
+    py::class_<SimulationInPython>(module, "Simulation", py::custom_type_setup(let_collect))
+        .def(py::init<SceneInPython>())
+        .def_static("resume", &resumed)
+        .def("step", &SimulationInPython::step)
+        .def("run", &SimulationInPython::run)
+        .def("add_motion", &SimulationInPython::add_motion)
+        .def("rods", &SimulationInPython::rods)
+        .def("velocities", &SimulationInPython::velocities)
+        .def("contacts", &SimulationInPython::contacts)
+        .def("series", &SimulationInPython::series)
+        .def("columns", &columns_of)
+        .def("save", &SimulationInPython::save)
+        .def("report", &report_of)
+        .def("failure", &SimulationInPython::failure)
+        .def("lineage", &lineage_of)
+        .def("scene", [](const SimulationInPython& self) { return self.scene(); })
+        .def("clock",
+             [](const SimulationInPython& self) {
+                 const Simulation& now = self.simulation();
+                 return py::make_tuple(now.clock().step, now.clock().time, now.settings().time_step);
+             })
+        .def("count", [](const SimulationInPython& self) { return self.simulation().rods().size(); })
+        .def("kT", [](const SimulationInPython& self) { return self.simulation().settings().kT; })
+        .def("box", [](const SimulationInPython& self) {
+            const Box& box = self.simulation().box();
+            return py::make_tuple(array_of(box.edges), box.periodic, box.volume());
+        });
+}
+
+}  // namespace jostle::python

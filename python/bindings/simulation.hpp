@@ -1,0 +1,62 @@
+#pragma once
+
+#include <thread>
+
+#include "bindings/rods_in_order.hpp"
+#include "bindings/scene.hpp"
+#include "jostle/io/checkpoint.hpp"
+#include "jostle/io/step_sums.hpp"
+#include "jostle/simulation/simulation.hpp"
+
+namespace jostle::python {
+
+/// A simulation with the rows of its series, as `jostle run` keeps them; makes its steps without the interpreter.
+///
+/// Between steps it is whole, whatever ended the last one: what belongs to a step (rods, clock, sums, row) is done in
+/// one go, and signals are looked at only after it.
+class SimulationInPython {
+public:
+    explicit SimulationInPython(SceneInPython scene);
+    SimulationInPython(SceneInPython scene, Checkpoint checkpoint);
+
+    /// One step. Throws std::runtime_error where a step is under way or no rods are left. A step that fails is told by
+    /// the report; then nothing has changed.
+    void step();
+    /// At most so many steps, until no rods are left or one fails; false if one failed. Throws what signal handlers
+    /// raise.
+    bool run(std::uint64_t steps);
+
+    /// `function(context)` gives (N, 6) velocities; see PythonMotion.
+    void add_motion(py::function function);
+
+    std::shared_ptr<RodsInOrder> rods();
+    const Simulation& simulation() const;
+    const SceneInPython& scene() const { return scene_; }
+    const std::optional<StepReport>& report() const;
+    std::string failure() const;  ///< of the last step; "" if it was sound
+    py::array velocities(const Numbers& force, const Numbers& torque);
+    py::dict contacts() const;
+    py::array series() const;  ///< (rows, columns)
+    void save(const std::string& folder) const;
+
+    int traverse(visitproc visit, void* argument) const;
+    void clear() { functions_.clear(); }
+
+private:
+    class Step;
+    void require_rest() const;
+    void require_between_steps() const;
+    void write_row();
+
+    SceneInPython scene_;
+    Simulation simulation_;
+    StepSums sums_;
+    std::vector<std::vector<double>> rows_;
+    std::vector<py::function> functions_;  ///< here, not in the motions, where the garbage collector can see them
+    std::shared_ptr<RodsInOrder> rods_;    ///< empty until they are asked for
+    std::optional<StepReport> report_;
+    std::string failure_;
+    std::optional<std::thread::id> stepping_;  ///< the thread that makes a step; read and written with the interpreter
+};
+
+}  // namespace jostle::python

@@ -1,0 +1,29 @@
+"""jostle: collision stress of rods and of rigid bodies of any shape.
+
+    segment_distance        distances of segments
+    body_moments, combined  mass and second moment of a body, made of parts
+    pair_stress             stress of contacts between rigid bodies of any shape
+    contact_stress          the same of a list of contacts, in all and of every body
+    collision_stress        stress of rods from their contacts
+    solve_lcp               linear complementarity problems
+    Scene, Simulation       what `jostle run` does, step by step
+    load                    what `jostle run` left
+
+Errors are InputError (a ValueError), StepFailure (a RuntimeError) and DiskError (an OSError). Arguments are converted
+from whole numbers and float32; truth values, complex numbers, texts, NaN and infinity are refused.
+"""
+
+from ._jostle import DiskError, InputError, set_thread_count, thread_count
+from ._jostle import version as __version__
+from .bodies import Body, body_moments, combined
+from .contact import segment_distance
+from .lcp import LcpResult, solve_lcp
+from .run import Run, load
+from .scene import Scene
+from .simulation import Simulation, StepFailure, StepReport
+from .stress import ContactStress, PairStress, collision_stress, contact_stress, pair_stress
+
+__all__ = ["Body", "ContactStress", "DiskError", "InputError", "LcpResult", "PairStress", "Run", "Scene",
+           "Simulation", "StepFailure", "StepReport", "body_moments", "collision_stress", "combined",
+           "contact_stress", "load", "pair_stress", "segment_distance", "set_thread_count", "solve_lcp",
+           "thread_count"]

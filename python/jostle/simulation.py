@@ -1,0 +1,319 @@
+"""Simulations, step by step."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from . import _jostle
+from ._arrays import with_shape
+from ._jostle import refuse
+from .scene import Scene
+
+CONTACT = np.dtype([("id_i", np.uint64), ("id_j", np.uint64), ("image", np.int32, 3), ("force", float), ("gap", float),
+                    ("normal", float, 3), ("arm_i", float), ("arm_j", float)])
+LINEAGE = np.dtype([("birth", bool), ("id", np.uint64), ("mother", np.uint64), ("length", float)])
+
+
+class StepFailure(RuntimeError):
+    """Contacts were not resolved, or rods overlap by more than `contact.overlap_limit`; where `jostle run` exits with 3.
+
+    report : StepReport of the step. If it did not converge, no rod has been moved.
+    """
+
+    def __init__(self, message, report):
+        super().__init__(message)
+        self.report = report
+
+
+@dataclass(frozen=True)
+class StepReport:
+    """What happened in one step.
+
+    step, time : number of the step, and when it began
+    rods, contacts, active_contacts : how many took part; contacts that might touch, and those with a force
+    converged, residual, iterations, solves : of the contact problem
+    max_overlap : length, largest overlap of two rods when the step began
+    collision_virial, spring_virial : (3, 3) arrays, volume times the stress of collisions, and of springs
+    seconds : dict, wall time of the five parts of the step
+    """
+    step: int
+    time: float
+    rods: int
+    converged: bool
+    residual: float
+    iterations: int
+    solves: int
+    contacts: int
+    active_contacts: int
+    max_overlap: float
+    collision_virial: np.ndarray
+    spring_virial: np.ndarray
+    seconds: dict
+
+
+@dataclass(frozen=True)
+class Clock:
+    """Steps done, simulated time, and the length of a step."""
+    step: int
+    time: float
+    time_step: float
+
+
+class Simulation:
+    """Rods in a box that move by steps.
+
+    Parameters
+    ----------
+    scene : Scene
+        Is copied: later changes of it change nothing here.
+    motions : functions, or one function
+        Motions of your own, beside those of the scene. `motion(rods, clock)` is called at every step with the rods
+        before it, as `Simulation.rods` shows them, and returns velocities (N, 3), or velocities and angular velocities
+        ((N, 3), (N, 3)), in the order of ids. What it raises ends the step, and nothing has changed. Random motions
+        should draw from np.random.default_rng((seed, clock.step)): then runs can be repeated and resumed.
+
+    Notes
+    -----
+    Arrays. `rods` shows the rods at one time as read-only arrays in the order of ids, without copying. They belong to
+    that time: a step changes no array that you hold, but gives new ones, and they stay valid when the simulation is
+    gone, when rows are renumbered and when cells divide or die. Keep `id` to follow a rod.
+
+    Series. Every `output.series_every` steps a row is added to `series`, the one that `jostle run` writes, bit for bit.
+
+    Threads. Steps are made without Python's global lock. Another thread that looks at the simulation then gets a
+    RuntimeError. `set_thread_count` sets how many threads a step uses; results do not depend on it.
+
+    Examples
+    --------
+    >>> scene = Scene(seed=3, box={"volume_fraction": 0.3}, rods={"count": 60, "length": 1.0},
+    ...               time={"production": 1.0})
+    >>> simulation = Simulation(scene)
+    >>> rows = simulation.run(20)
+    >>> rows["step"], bool(rows["Z"][-1] > 1)
+    (array([10., 20.]), True)
+    >>> simulation.rods.centre.shape, simulation.clock.step
+    ((60, 3), 20)
+    """
+
+    def __init__(self, scene, motions=()):
+        if not isinstance(scene, Scene):
+            refuse("scene", f"a {type(scene).__name__}", "is no scene", "a Scene, as Scene.from_toml gives it")
+        self._begin(_jostle.Simulation(scene._core), motions)
+
+    @classmethod
+    def resume(cls, folder, motions=()):
+        """Goes on from the last checkpoint in a folder: of `jostle run`, or of `save`. Nothing is written there.
+
+        It goes on as if it had never stopped, bit for bit, for any number of threads. Motions of your own are not in
+        a checkpoint: give them again. Raises InputError where there is no sound checkpoint.
+        """
+        simulation = cls.__new__(cls)
+        simulation._begin(_jostle.Simulation.resume(str(folder)), motions)
+        return simulation
+
+    def _begin(self, core, motions):
+        self._core = core
+        self._dtype = np.dtype([(column[0], float) for column in core.columns()])
+        self._rows_given = 0
+        for motion in [motions] if callable(motions) else motions:
+            self.add_motion(motion)
+
+    def add_motion(self, motion):
+        """Adds a motion of your own, felt from the next step on; see Simulation for what it is called with."""
+        if not callable(motion):
+            refuse("motion", repr(motion), "cannot be called", "a function of (rods, clock)")
+        core = self._core  # not self: what the extension holds must not hold this object
+
+        def ask(step, time_step):
+            rods = core.rods()
+            return _velocities(motion(rods, Clock(step, step * time_step, time_step)), len(rods))
+
+        core.add_motion(ask)
+
+    def step(self):
+        """Makes one step, and tells of it. Raises StepFailure, and what motions raise.
+
+        >>> simulation = Simulation(Scene(box={"edges": [9, 9, 9]}, rods={"count": 9, "length": 1},
+        ...                               time={"production": 1}))
+        >>> simulation.step().converged
+        True
+        """
+        self._core.step()
+        self._require_success()
+        return self.report
+
+    def run(self, steps, *, every=None, callback=None):
+        """Makes steps, fewer if no cells are left, and returns the rows that they added to the series.
+
+        Parameters
+        ----------
+        steps : int, >= 0
+        callback : function of the simulation, optional
+            Called after every step whose number is a multiple of `every`.
+        every : int, >= 1
+            By default `output.series_every` of the scene.
+
+        Ctrl-C ends it after the present step, by KeyboardInterrupt; so does what a callback raises. The simulation is
+        then whole, and can go on; rows are in `series`. Raises StepFailure.
+
+        >>> simulation = Simulation(Scene(box={"edges": [9, 9, 9]}, rods={"count": 9, "length": 1},
+        ...                               time={"production": 1}))
+        >>> seen = []
+        >>> rows = simulation.run(8, every=3, callback=lambda simulation: seen.append(simulation.clock.step))
+        >>> seen
+        [3, 6]
+        """
+        left = _whole_number("steps", steps, 0)
+        every = self.scene.output.series_every if every is None else _whole_number("every", every, 1)
+        before = len(self._core.series())
+        while left > 0 and len(self) > 0:
+            portion = left if callback is None else min(left, every - self.clock.step % every)
+            self._core.run(portion)
+            self._require_success()
+            left -= portion
+            if callback is not None and self.clock.step % every == 0:
+                callback(self)
+        return self.series[before:]
+
+    def _require_success(self):
+        if failure := self._core.failure():
+            raise StepFailure(f"step {self.report.step} failed: {failure}", self.report)
+
+    def __len__(self):
+        """Number of rods."""
+        return self._core.count()
+
+    @property
+    def scene(self):
+        """A copy of the scene, with every default."""
+        return Scene._of(self._core.scene())
+
+    @property
+    def rods(self):
+        """The rods as they are now: read-only arrays, in the order of ids.
+
+        id (N), uint64, permanent; centre (N, 3), length, inside the box along periodic directions; axis (N, 3), unit
+        vectors; length, diameter (N), length; image (N, 3), int32, box edges crossed since the start.
+        """
+        return self._core.rods()
+
+    @property
+    def clock(self):
+        """Steps done, simulated time, length of a step."""
+        return Clock(*self._core.clock())
+
+    @property
+    def edges(self):
+        """(3) array, length: edges of the box, whose lowest corner is the origin."""
+        return self._core.box()[0]
+
+    @property
+    def periodic(self):
+        """Whether the box is periodic, along x, y, z."""
+        return tuple(self._core.box()[1])
+
+    @property
+    def volume(self):
+        """Of the box, length**3."""
+        return self._core.box()[2]
+
+    @property
+    def kT(self):
+        """Of the Brownian motion; 0 where there is none."""
+        return self._core.kT()
+
+    @property
+    def report(self):
+        """StepReport of the last step; None before the first."""
+        report = self._core.report()
+        return report and StepReport(**report)
+
+    @property
+    def stress(self):
+        """(3, 3) array, force length**-2: collision stress of the last step, positive in compression; None before it.
+
+        Its own noise is large: means over many steps are in `series`.
+        """
+        report = self.report
+        return report and report.collision_virial / self.volume
+
+    @property
+    def contacts(self):
+        """Contacts of the last step that has been made, as a structured array, with the rods as they were before it.
+
+        id_i < id_j; image (3), box edges by which j is displaced; force >= 0; gap, length, before the step; normal (3),
+        unit vector from i to j; arm_i, arm_j, length, along the axes from the centres.
+        """
+        columns = self._core.contacts()
+        table = np.empty(len(columns["force"]), CONTACT)
+        table["id_i"], table["id_j"] = columns.pop("id").T
+        for name, values in columns.items():
+            table[name] = values
+        return table
+
+    @property
+    def lineage(self):
+        """Who was born and who died after the last step: structured array of birth (else death), id, mother, length."""
+        return np.array(self._core.lineage(), LINEAGE)
+
+    @property
+    def series(self):
+        """All rows since this object was made, as a structured array: the columns of series.csv.
+
+        `columns` tells their units and meanings.
+        """
+        return self._core.series().view(self._dtype)[:, 0]
+
+    @property
+    def columns(self):
+        """Of the series: name -> dict of unit, symbol, definition, sign."""
+        return {name: dict(zip(("unit", "symbol", "definition", "sign"), rest))
+                for name, *rest in self._core.columns()}
+
+    def velocities(self, force=0.0, torque=0.0):
+        """What forces and torques on the rods make of their velocities, by the mobility of the scene.
+
+        force, torque : (N, 3) arrays, or what broadcasts to it; in the order of ids. Returns velocities and angular
+        velocities, (N, 3) each. For motions that push: return simulation.velocities(force).
+
+        >>> simulation = Simulation(Scene(box={"edges": [9, 9, 9]}, rods={"count": 9, "length": 0},
+        ...                               time={"production": 1}))
+        >>> velocity, _ = simulation.velocities(force=[3 * np.pi, 0, 0])  # Stokes: F = 3 pi mu D U
+        >>> velocity[0].round(12)
+        array([1., 0., 0.])
+        """
+        shape = (len(self), 3)
+        found = self._core.velocities(with_shape("force", force, shape, repeat=True),
+                                      with_shape("torque", torque, shape, repeat=True))
+        return found[:, :3], found[:, 3:]
+
+    def save(self, folder):
+        """Writes a checkpoint into a folder, for `resume`; the one before is kept as checkpoint.previous.
+
+        The folder is made if it is not there. That of a run of the command is refused. Raises DiskError.
+        """
+        folder = Path(folder)
+        if (folder / "run.json").exists():
+            refuse("folder", str(folder), "holds a run of the command, whose checkpoint must fit its files",
+                   suggestion="Give another folder")
+        folder.mkdir(parents=True, exist_ok=True)
+        self._core.save(str(folder))
+
+    def __repr__(self):
+        clock = self.clock
+        return f"<jostle.Simulation of {len(self)} rods, step {clock.step}, time {clock.time:.6g}>"
+
+
+def _velocities(given, count):
+    """What a motion returned, as (N, 6)."""
+    both = isinstance(given, tuple) and len(given) == 2
+    linear = with_shape("velocities of a motion", given[0] if both else given, (count, 3))
+    angular = with_shape("angular velocities of a motion", given[1] if both else np.zeros((count, 3)), (count, 3))
+    return np.hstack((linear, angular))
+
+
+def _whole_number(name, value, lowest):
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)) or value < lowest:
+        refuse(name, repr(value), "is no such number", f"a whole number of at least {lowest}")
+    return int(value)

@@ -1,0 +1,258 @@
+"""The collision stress of rigid bodies of any shape, from contacts and forces of any program."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import _jostle
+from ._arrays import number, rows, with_shape
+from ._jostle import refuse
+from .bodies import Body
+
+
+@dataclass(frozen=True)
+class PairStress:
+    """Stress times volume of contacts, (..., 3, 3) arrays, force length; element (position, force).
+
+    centre_of_mass_virial : (r_2 - r_1) F
+    geometric_1, geometric_2 : s^G of body 1 under -F, of body 2 under F; traceless
+    """
+    centre_of_mass_virial: np.ndarray
+    geometric_1: np.ndarray
+    geometric_2: np.ndarray
+
+    @property
+    def total(self):
+        """(..., 3, 3) array, the sum of the three: theory, eq. (1.1)."""
+        return self.centre_of_mass_virial + self.geometric_1 + self.geometric_2
+
+
+def pair_stress(body_1, body_2, point_1, point_2, force):
+    """Stress times volume of a contact between two rigid bodies, or of many; positive in compression.
+
+    Parameters
+    ----------
+    body_1, body_2 : Body
+    point_1, point_2 : (..., 3) arrays, length
+        Where the force acts, relative to the bodies' centres of mass; anywhere, not only on the surface.
+    force : (..., 3) array
+        On body 2, of any direction: contact, friction, spring, motor. Body 1 feels -force.
+        Leading dimensions of all arguments are broadcast.
+
+    Returns
+    -------
+    PairStress
+        Symmetric where the force is along the line between the two points; else eps:sigma = d x F with that line d.
+
+    Raises
+    ------
+    InputError
+        Where a second moment is not symmetric, not positive semi-definite, or of a line without width; for wrong
+        shapes and numbers that are not finite.
+
+    Notes
+    -----
+    Theory, eq. (1.1), jostle/stress/rigid_body_stress.hpp; Yan, Zhang and Shelley, J. Chem. Phys. 150, 064109 (2019),
+    with the sign of the force on body 1 corrected.
+
+    Examples
+    --------
+    Two spheres that touch, with a force that has friction in it: the stress is symmetric all the same.
+
+    >>> from jostle import body_moments
+    >>> sphere = body_moments("sphere", diameter=1.0)
+    >>> stress = pair_stress(sphere, sphere.at([1, 0, 0]), [0.5, 0, 0], [-0.5, 0, 0], force=[2.0, 1.0, 0.0])
+    >>> stress.total
+    array([[2. , 0.5, 0. ],
+           [0.5, 0. , 0. ],
+           [0. , 0. , 0. ]])
+    """
+    for name, body in (("body_1", body_1), ("body_2", body_2)):
+        if not isinstance(body, Body):
+            refuse(name, f"a {type(body).__name__}", "is no body", "a Body, as body_moments gives it")
+    vector, matrix = (3,), (3, 3)
+    lead, arrays = rows(centre_1=(body_1.centre, vector), second_moment_1=(body_1.second_moment, matrix),
+                        centre_2=(body_2.centre, vector), second_moment_2=(body_2.second_moment, matrix),
+                        point_1=(point_1, vector), point_2=(point_2, vector), force=(force, vector))
+    return PairStress(*(part.reshape(lead + matrix) for part in _jostle.pair_stress(*arrays)))
+
+
+@dataclass(frozen=True)
+class ContactStress:
+    """Stress times volume of many contacts, (3, 3) arrays, force length; element (position, force).
+
+    virial : sum over contacts of (r_2 - r_1) F; for "centre_line" from point to point
+    geometric : sum over bodies of s^G of the net torque; 0 in the other conventions
+    per_body : (bodies, 3, 3) array, which adds up to the total: half of every virial that the body takes part in, and
+        its own s^G
+    """
+    virial: np.ndarray
+    geometric: np.ndarray
+    per_body: np.ndarray
+
+    @property
+    def total(self):
+        """(3, 3) array; divide by the volume for the stress, positive in compression."""
+        return self.virial + self.geometric
+
+
+def contact_stress(bodies, body_1, body_2, point_1, point_2, force, *, separation=None, convention="rigid_body"):
+    """Stress times volume of a list of contacts between bodies of any shape, in all and of every body.
+
+    Parameters
+    ----------
+    bodies : Body with (B, ...) arrays, or a list of B single ones
+    body_1, body_2 : (C) arrays of whole numbers
+        Which bodies touch, 0 to B - 1.
+    point_1, point_2 : (C, 3) arrays, length
+        Where the force acts, relative to the centres of mass.
+    force : (C, 3) array, on body_2
+    separation : (C, 3) array, length, optional
+        From the centre of body_1 to that of body_2, nearest images taken. By default the difference of their centres.
+    convention : "rigid_body", "centre_line" (the points must lie on the centre lines) or "centre_of_mass_virial"
+
+    Returns
+    -------
+    ContactStress
+
+    Raises
+    ------
+    InputError
+        As pair_stress, and for numbers of bodies that are not there.
+
+    Notes
+    -----
+    Theory, eq. (1.14), jostle/stress/contact_stress.hpp; the sum of `pair_stress`, with work proportional to C + B.
+
+    Examples
+    --------
+    >>> from jostle import body_moments
+    >>> sphere = body_moments("sphere", diameter=1.0)
+    >>> bodies = [sphere, sphere.at([1, 0, 0]), sphere.at([2, 0, 0])]
+    >>> stress = contact_stress(bodies, [0, 1], [1, 2], [[0.5, 0, 0]] * 2, [[-0.5, 0, 0]] * 2, [[2.0, 0, 0]] * 2)
+    >>> stress.total[0, 0], stress.per_body[:, 0, 0]
+    (4.0, array([1., 2., 1.]))
+    """
+    centre, second_moment = _many(bodies)
+    first, second = (with_shape(name, value, (None,), kinds="iu", dtype=np.int64)
+                     for name, value in (("body_1", body_1), ("body_2", body_2)))
+    shape = first.shape + (3,)
+    if separation is None:
+        _require_bodies(np.concatenate((first, second)), len(centre))
+        with_shape("body_2", second, first.shape, kinds="iu", dtype=np.int64)
+        separation = centre[second] - centre[first]
+    vectors = [with_shape(name, value, shape) for name, value in
+               (("separation", separation), ("point_1", point_1), ("point_2", point_2), ("force", force))]
+    return ContactStress(*_jostle.contact_stress(second_moment, first, second, *vectors, str(convention)))
+
+
+def _require_bodies(rows_of, count):
+    wrong = rows_of[(rows_of < 0) | (rows_of >= count)]
+    if len(wrong):
+        refuse("body_1, body_2", str(wrong[0]), "is no row of the bodies", f"0 to {count - 1}")
+
+
+def _many(bodies):
+    """Centres (B, 3) and second moments (B, 3, 3)."""
+    if not isinstance(bodies, Body):
+        singles = [body._single() for body in bodies]
+        return tuple(np.array([body[k] for body in singles], float).reshape((-1, 3, 3)[:k + 1]) for k in (1, 2))
+    count = bodies.centre.shape[:1] if bodies.centre.ndim == 2 else bodies.second_moment.shape[:-2]
+    if len(count) != 1:
+        refuse("bodies", f"centres of shape {bodies.centre.shape}", "are not a list of bodies", "(B, 3)")
+    return (with_shape("centre", bodies.centre, count + (3,), repeat=True),
+            with_shape("second_moment", bodies.second_moment, count + (3, 3), repeat=True))
+
+
+def collision_stress(rods, contacts, volume, *, at="touching"):
+    """Collision stress of rods from a list of their contacts, with work proportional to their number.
+
+    Parameters
+    ----------
+    rods : `Simulation.rods`, a frame of a trajectory, or a dict
+        With axis (N, 3) of unit vectors, length and diameter (N) or one number; and id (N), if contacts name ids.
+    contacts : structured array or dict, one entry a contact
+        id_i, id_j (or i, j: rows of the rods); normal (C, 3), unit vector from i to j; arm_i, arm_j (C), length:
+        positions along the axes, from the centres; force (C), on j along the normal; and gap (C), length, if `at` is
+        "start". `Simulation.contacts` is such an array.
+    volume : float, length**3
+    at : "touching" or "start"
+        The distance of the surfaces at which the moment of a force is taken: 0, or the gap.
+
+    Returns
+    -------
+    (3, 3) array, force length**-2
+        (position, force), positive in compression; the kinetic part n kT is not in it.
+
+    Raises
+    ------
+    InputError
+        For wrong shapes, ids and rows that no rod has, axes that are no unit vectors, sizes out of range.
+
+    Notes
+    -----
+    Theory, eq. (1.7), jostle/stress/collision_stress.hpp.
+
+    Examples
+    --------
+    Two parallel rods side by side, pressed together by a force of 3:
+
+    >>> rods = {"axis": [[0, 0, 1], [0, 0, 1]], "length": 5.0, "diameter": 1.0}
+    >>> contact = {"i": [0], "j": [1], "normal": [[1, 0, 0]], "arm_i": [0.0], "arm_j": [0.0], "force": [3.0]}
+    >>> collision_stress(rods, contact, volume=30.0)[0, 0]
+    0.1
+    """
+    if at not in ("touching", "start"):
+        refuse("at", repr(at), "is unknown", '"touching", "start"')
+    axis = with_shape("axis", _column(rods, "axis"), (None, 3))
+    sizes = [with_shape(name, _column(rods, name), axis.shape[:1], repeat=True) for name in ("length", "diameter")]
+    _require_rods(axis, *sizes)
+    force = with_shape("force", _column(contacts, "force"), (None,))
+    count = force.shape
+    i, j = _partners(rods, contacts, count)
+    columns = [with_shape("normal", _column(contacts, "normal"), count + (3,))]
+    columns += [with_shape(name, _column(contacts, name), count) for name in ("arm_i", "arm_j")]
+    gap = with_shape("gap", _column(contacts, "gap"), count) if at == "start" else np.zeros(count)
+    space = number("volume", volume)
+    if not space > 0:
+        refuse("volume", str(volume), "is not positive", "greater than 0")
+    return _jostle.sum_over_contacts(axis, *sizes, i, j, *columns, gap, force, at == "touching") / space
+
+
+def _column(table, name):
+    try:
+        return table[name] if not hasattr(table, name) else getattr(table, name)
+    except (KeyError, ValueError, IndexError, TypeError):
+        refuse(name, "", "is missing")
+
+
+def _has(table, name):
+    names = getattr(getattr(table, "dtype", None), "names", None) or table
+    return name in names
+
+
+def _partners(rods, contacts, count):
+    if not _has(contacts, "id_i"):
+        return [with_shape(name, _column(contacts, name), count, kinds="iu", dtype=np.int64) for name in ("i", "j")]
+    ids = with_shape("id", _column(rods, "id"), (None,), kinds="iu", dtype=np.uint64)
+    order = np.argsort(ids)
+    found = []
+    for name in ("id_i", "id_j"):
+        wanted = with_shape(name, _column(contacts, name), count, kinds="iu", dtype=np.uint64)
+        unknown = wanted[~np.isin(wanted, ids)]
+        if len(unknown):
+            refuse(name, str(unknown[0]), "is the id of no rod")
+        found.append(order[np.searchsorted(ids, wanted, sorter=order)].astype(np.int64))
+    return found
+
+
+def _require_rods(axis, length, diameter):
+    size = np.linalg.norm(axis, axis=1)
+    if (abs(size - 1) > 1e-6).any():
+        k = int(np.argmax(abs(size - 1)))
+        refuse(f"axis (row {k})", str(axis[k]), "is no unit vector", "a vector of length 1")
+    for name, values, sound in (("length", length, length >= 0), ("diameter", diameter, diameter > 0)):
+        if not sound.all():
+            k = int(np.argmin(sound))
+            refuse(f"{name} (row {k})", str(values[k]), "is outside the allowed range",
+                   "at least 0" if name == "length" else "greater than 0")

@@ -1,0 +1,26 @@
+"""The Python blocks of the guide run, in order."""
+
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+
+GUIDE = Path(__file__).resolve().parents[2] / "docs" / "guide"
+
+
+def blocks(page):
+    return re.findall(r"^```python\n(.*?)^```", (GUIDE / page).read_text(), re.MULTILINE | re.DOTALL)
+
+
+@pytest.mark.parametrize("page, count", [("python.md", 2), ("stress_formula_python.md", 3)])
+def test_blocks_run(page, count, run_of_rods, tmp_path, monkeypatch):
+    shutil.copytree(run_of_rods, tmp_path / "rods.run")
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    found = blocks(page)
+    assert len(found) == count
+    for block in found:
+        exec(block.replace('"count": 400', '"count": 60').replace("run(1000)", "run(50)"), names)
+    if "found" in names:
+        assert abs(names["found"].per_body.sum(axis=0) - names["found"].total).max() < 1e-12

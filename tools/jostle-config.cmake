@@ -1,0 +1,12 @@
+# find_package(jostle): the target jostle::jostle, and what the library needs itself (tools/packages.txt).
+include(CMakeFindDependencyMacro)
+find_dependency(OpenMP COMPONENTS CXX)
+find_dependency(Eigen3)
+find_dependency(fmt)
+find_dependency(HDF5 COMPONENTS C HL)
+find_dependency(nlohmann_json)
+find_dependency(Qhull)
+find_dependency(PkgConfig)
+pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
+pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
+include(${CMAKE_CURRENT_LIST_DIR}/jostle_targets.cmake)
