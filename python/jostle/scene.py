@@ -95,8 +95,8 @@ class Scene:
         ... lenght = 5.0
         ... ''')
         Traceback (most recent call last):
-        jostle.InputError: <text>:6:1: rods.lenght = 5.0: is an unknown key (allowed: "count", "length", "diameter", \
-"start", "axis", "file"). Did you mean "length"?
+        jostle.InputError: <text>:6:1: rods.lenght = 5.0: is an unknown key (allowed: "count", "length", "diameter", "length_deviation", \
+"diameter_deviation", "start", "axis", "file"). Did you mean "length"?
         """
         if isinstance(source, str) and "\n" in source:
             return cls._of(_jostle.Scene.parse(source, "<text>"))
