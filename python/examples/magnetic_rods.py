@@ -9,9 +9,9 @@ import numpy as np
 import jostle
 
 scene = jostle.Scene(
-    seed=8,
+    seed=1,
     box={"volume_fraction": 0.02},
-    rods={"count": 150, "length": 1.0},
+    rods={"count": 80, "length": 1.0},
     time={"step": 0.02, "production": 1.0},
 )
 
@@ -39,7 +39,7 @@ for moment in (0.5, 2.0, 8.0):
     simulation = magnetic(moment)
     simulation.run(1500)
     seen = []
-    simulation.run(8000, every=100, callback=lambda simulation: seen.append((simulation.rods.axis @ field).mean()))
+    simulation.run(24000, every=100, callback=lambda simulation: seen.append((simulation.rods.axis @ field).mean()))
     error = np.std(np.mean(np.reshape(seen, (8, -1)), axis=1), ddof=1) / np.sqrt(8)
     print(f"{moment:5.1f}    {np.mean(seen):.3f} +- {error:.3f}    {1 / np.tanh(moment) - 1 / moment:.3f}")
 
