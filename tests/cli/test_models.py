@@ -2,9 +2,11 @@
 
 import json
 
+import h5py
+import numpy as np
 import pytest
 
-from jostle_command import DONE, RODS, changed, column, finish, mean, run, with_steps, write_scene
+from jostle_command import DONE, RODS, STOPPED, changed, column, finish, mean, run, with_steps, write_scene
 
 SOFT = {"contact": {"model": "wca", "energy": 1.0}, "time": {"step": 0.0005}, "output": {"series_every": 1}}
 
@@ -58,3 +60,25 @@ def test_an_anisotropy_that_equilibrium_does_not_have_is_said(tmp_path):
     oracle = json.loads((tmp_path / "run" / "summary.json").read_text())["oracles"]["anisotropy"]
     assert result.returncode == DONE and oracle["agree"] is False and oracle["difference"] < 0.0
     assert "WARNING: the stress anisotropy differs from that of equilibrium" in result.stdout
+
+
+def test_speeds_of_a_file(tmp_path):
+    """Every rod swims at the speed of its line, whatever rows and checkpoints do to it."""
+    speeds = [0.5, -1.0, 2.0]
+    lines = [f"10,{10 + 10 * k},10,1,0,0,{speed}" for k, speed in enumerate(speeds)]
+    (tmp_path / "rods.csv").write_text("\n".join(["x,y,z,nx,ny,nz,speed", *lines]) + "\n")
+    scene = changed(RODS, rods={"count": None, "start": "file", "file": "rods.csv"},
+                    box={"volume_fraction": None, "edges": [40.0, 40.0, 40.0]},
+                    motion={"brownian": False, "self_propulsion": 1.0},
+                    time={"step": 0.01}, output={"trajectory_every": 100, "checkpoint_every": 50})
+    write_scene(tmp_path, with_steps(scene, 1100))
+    stopped = run(tmp_path, "--walltime", "0:00:00")
+    assert stopped.returncode == STOPPED, stopped.stderr
+    folder = finish(tmp_path)
+    with h5py.File(folder / "trajectory.h5") as file:
+        rods = file["particles/rods"]
+        order = np.argsort(rods["id/value"][-1])
+        time = rods["position/time"][-1]
+        moved = (rods["position/value"][-1] + 40.0 * rods["image/value"][-1])[order, 0] - 10.0
+    assert time == pytest.approx(11.0)
+    np.testing.assert_allclose(moved, np.array(speeds) * time, rtol=1e-5)

@@ -34,6 +34,7 @@ void remove_rows(Rods& rods, const std::vector<bool>& marked) {
     keep(rods.id);
     keep(rods.image);
     keep(rods.cycle);
+    if (!rods.speed.empty()) keep(rods.speed);
 }
 
 }  // namespace
@@ -150,6 +151,7 @@ LineageEvent Growth::split(Rods& rods, std::size_t row, const Box& box, std::uin
 
     rods.push_back(daughter, front, law_.daughters == DaughterDirection::same ? axis : -axis, length, diameter);
     rods.image.back() = image;
+    if (!rods.speed.empty()) rods.speed.push_back(rods.speed[row]);
     rods.cycle.push_back(newborn(daughter, length, diameter, step, divisions + 1));
     box.wrap(rods.centre.back(), rods.image.back());
     return {LineageEvent::Kind::birth, daughter, mother, length};

@@ -29,6 +29,8 @@ void put_rods(ByteWriter& writer, const Rods& rods) {
     writer.put_elements(rods.image);
     writer.put(static_cast<std::uint64_t>(rods.cycle.size()));
     writer.put_elements(rods.cycle);
+    writer.put(static_cast<std::uint64_t>(rods.speed.size()));
+    writer.put_elements(rods.speed);
 }
 
 Rods take_rods(ByteReader& reader) {
@@ -43,6 +45,9 @@ Rods take_rods(ByteReader& reader) {
     const auto cycles = reader.take<std::uint64_t>();
     if (cycles != 0 && cycles != count) throw std::out_of_range("cell cycles and rods differ in number");
     reader.take_elements(cycles, rods.cycle);
+    const auto speeds = reader.take<std::uint64_t>();
+    if (speeds != 0 && speeds != count) throw std::out_of_range("speeds and rods differ in number");
+    reader.take_elements(speeds, rods.speed);
     return rods;
 }
 

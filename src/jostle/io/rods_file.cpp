@@ -11,9 +11,9 @@ namespace jostle {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> names = {"x", "y", "z", "nx", "ny", "nz", "length", "diameter"};
+constexpr std::array<std::string_view, 9> names = {"x", "y", "z", "nx", "ny", "nz", "length", "diameter", "speed"};
 constexpr CsvColumns columns = {names, 6, "a rods file",
-                                "The header names the columns x,y,z,nx,ny,nz and optionally length,diameter"};
+                                "The header names the columns x,y,z,nx,ny,nz and optionally length,diameter,speed"};
 
 }  // namespace
 
@@ -27,6 +27,7 @@ Rods read_rods(const std::string& path, double default_length, double default_di
         if (!(diameter > 0.0))
             throw refused_file(path, fmt::format("diameter = {} is not positive", diameter), "", line);
         rods.push_back(rods.size(), centre, normalised(axis), length, diameter);
+        if (values[8]) rods.speed.push_back(*values[8]);
     });
     if (rods.size() == 0) throw refused_file(path, "the file holds no rods", "");
     return rods;

@@ -1,5 +1,7 @@
 #include "jostle/io/rods_of_scene.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "jostle/error/input_error.hpp"
@@ -10,6 +12,27 @@
 #include "jostle/simulation/validate_scene.hpp"
 
 namespace jostle {
+
+namespace {
+
+/// The keys that a file with the rods' own speeds needs, and does not go with.
+void require_swimming(const Scene& scene, const std::string& file) {
+    const auto refuse = [&](const char* key, double value, const char* problem, const char* suggestion) {
+        throw InputError({.key = key,
+                          .value = fmt::format("{}", value),
+                          .problem = fmt::format("{}: {} has a column speed", problem, file),
+                          .suggestion = suggestion});
+    };
+    const Scene::MotionTable& motion = scene.motion;
+    if (motion.self_propulsion == 0.0)
+        refuse("motion.self_propulsion", motion.self_propulsion, "says that nothing swims",
+               "Set it to the mean speed, or remove the column");
+    if (motion.self_propulsion_deviation != 0.0)
+        refuse("motion.self_propulsion_deviation", motion.self_propulsion_deviation, "says that speeds are drawn",
+               "Remove it, or the column");
+}
+
+}  // namespace
 
 std::optional<Rods> rods_from_file(const Scene& scene, const std::filesystem::path& scene_path) {
     if (scene.rods.start != StartKind::file) return std::nullopt;
@@ -22,6 +45,7 @@ std::optional<Rods> rods_from_file(const Scene& scene, const std::filesystem::pa
                           .problem = "the file " + file.string() + " holds " + std::to_string(rods.size()) + " rods",
                           .suggestion = "Leave rods.count out to take all of the file",
                           .place = {scene_path.string()}});
+    if (!rods.speed.empty()) require_swimming(scene, file.string());
     validate_box(scene, total_volume(rods), *std::max_element(rods.diameter.begin(), rods.diameter.end()));
     return rods;
 }

@@ -48,6 +48,7 @@ void SelfPropulsion::between_steps(Rods& rods, const StepContext& context) const
 }
 
 std::vector<double> SelfPropulsion::speeds(const Rods& rods, std::uint64_t seed) const {
+    if (!rods.speed.empty()) return rods.speed;
     std::vector<double> speed(rods.size(), swimming_.speed);
     if (swimming_.deviation == 0.0) return speed;
     const RandomKey key{seed, 0, Stream::swimming_speed, 0};

@@ -18,7 +18,8 @@ struct Swimming {
 /// Every rod swims along its axis n: U = U_i n (theory, eq. 2.1); it may tumble and turn round (theory, section 2.6).
 ///
 /// A rod's own speed U_i is a normal number of mean `speed`, a function of (seed, id): its own for life. Where the mean
-/// is not far above the deviation, some rods swim backwards.
+/// is not far above the deviation, some rods swim backwards. Where `Rods::speed` holds speeds, those are the rods' own;
+/// daughters have that of their mother.
 /// A tumbling rod does not swim: it turns (`Tumbles`). A reversal exchanges head and tail, n -> -n, between two steps:
 /// the same body, swimming back.
 class SelfPropulsion final : public Motion {

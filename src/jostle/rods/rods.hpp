@@ -31,6 +31,8 @@ struct Rods {
     std::vector<std::uint64_t> id;  ///< (N) permanent, never reused
     std::vector<Image> image;       ///< (N) box edges crossed since the start: unwrapped = centre + image * edges
     std::vector<CellCycle> cycle;   ///< (N), or empty where rods do not grow
+    std::vector<double>
+        speed;  ///< (N) own speeds of swimmers, or empty where a law gives them (motion/self_propulsion)
 
     std::size_t size() const { return centre.size(); }
 

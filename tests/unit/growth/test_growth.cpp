@@ -48,10 +48,12 @@ TEST_CASE("two daughters touch, and reach as far as their mother; her volume fal
     const Growth growth(law(), 1, 4);
     Rods rods = cells(3, 6.25);
     growth.found(rods);
+    rods.speed = {1.0, 2.0, 3.0};
     const Rods before = rods;
     const auto events = growth.divide(rods, box, 7, 0.1);
     REQUIRE(events.size() == 3);
     REQUIRE(rods.size() == 6);
+    CHECK(rods.speed == std::vector<double>{1.0, 2.0, 3.0, 1.0, 2.0, 3.0});
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t front = 3 + i;
         const Vec3 axis = before.axis[i], apart = unwrapped(rods, front) - unwrapped(rods, i);

@@ -97,6 +97,13 @@ TEST_CASE("rods' own speeds: mean and deviation; they belong to the id, for life
 }
 
 // Binomial, five standard deviations: false-alarm rate 6e-7 per seed.
+TEST_CASE("speeds that rods hold are theirs, in place of those of the law") {
+    const SelfPropulsion propulsion(Swimming{.speed = 1.5, .deviation = 0.4});
+    Rods rods = equal_rods(3);
+    rods.speed = {1.0, -2.0, 0.25};
+    CHECK(propulsion.speeds(rods, seed) == rods.speed);
+}
+
 TEST_CASE("reversals: n becomes -n with the probability of an odd number of Poisson events") {
     MESSAGE("seed " << seed);
     const double rate = 0.7, dt = 0.5;
