@@ -30,10 +30,11 @@ struct Population {
 Population population_of(const Scene& scene, const std::optional<Rods>& from_file) {
     if (from_file) return {*from_file, static_cast<double>(from_file->size()), total_volume(*from_file)};
     Rods rods;
-    for (std::uint64_t id = 0; id < (rods_are_alike(scene) ? 1 : scene.rods.count); ++id) {
-        const RodSize size = rod_size(scene, id);
-        rods.push_back(id, {}, {1, 0, 0}, size.length, size.diameter);
-    }
+    if (rods_are_alike(scene))
+        rods.push_back(0, {}, {1, 0, 0}, scene.rods.length, scene.rods.diameter);
+    else
+        for (const RodSize& size : rod_sizes(scene))
+            rods.push_back(rods.size(), {}, {1, 0, 0}, size.length, size.diameter);
     return {rods, static_cast<double>(scene.rods.count), rods_volume(scene)};
 }
 

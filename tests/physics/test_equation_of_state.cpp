@@ -32,8 +32,8 @@ double carnahan_starling(double phi) {
 /// those of the scene; Carnahan-Starling where they are alike.
 double mixture(const Scene& scene) {
     double m1 = 0.0, m2 = 0.0, m3 = 0.0;
-    for (std::uint64_t id = 0; id < scene.rods.count; ++id) {
-        const double d = rod_size(scene, id).diameter, share = 1.0 / static_cast<double>(scene.rods.count);
+    for (const RodSize& size : rod_sizes(scene)) {
+        const double d = size.diameter, share = 1.0 / static_cast<double>(scene.rods.count);
         m1 += share * d;
         m2 += share * d * d;
         m3 += share * d * d * d;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <vector>
 
 #include "jostle/simulation/scene.hpp"
 
@@ -15,13 +15,14 @@ struct RodSize {
 /// again.
 inline constexpr double farthest_deviation = 3.0;
 
-/// Length and diameter that the rod with this id starts with: normal numbers of mean `rods.length` and `rods.diameter`
-/// and standard deviations `rods.length_deviation` and `rods.diameter_deviation`, a function of (seed, id).
-RodSize rod_size(const Scene& scene, std::uint64_t id);
-
 /// Whether all rods of the scene start alike. Those of a file need not.
 inline bool rods_are_alike(const Scene& scene) {
     return scene.rods.length_deviation == 0.0 && scene.rods.diameter_deviation == 0.0;
 }
+
+/// Length and diameter that each rod starts with, by id (`rods.count`): normal numbers of mean `rods.length` and
+/// `rods.diameter` and standard deviations `rods.length_deviation` and `rods.diameter_deviation`, a function of (seed,
+/// id).
+std::vector<RodSize> rod_sizes(const Scene& scene);
 
 }  // namespace jostle

@@ -116,10 +116,8 @@ std::vector<bool> rods_to_draw_again(const Rods& rods, const Box& box) {
 /// equilibrium to first order in the density, where pushing them apart would leave too many touching.
 Rods scattered(const Scene& scene, const Box& box, const std::optional<Vec3>& common_axis) {
     Rods rods;
-    for (std::uint64_t id = 0; id < scene.rods.count; ++id) {
-        const RodSize size = rod_size(scene, id);
-        rods.push_back(id, {}, common_axis.value_or(Vec3{}), size.length, size.diameter);
-    }
+    for (const RodSize& size : rod_sizes(scene))
+        rods.push_back(rods.size(), {}, common_axis.value_or(Vec3{}), size.length, size.diameter);
     std::vector<bool> again(rods.size(), true);
     for (std::uint32_t draw = 0; draw < largest_draws; ++draw) {
         for (std::size_t i = 0; i < rods.size(); ++i) {

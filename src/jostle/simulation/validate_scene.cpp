@@ -354,10 +354,9 @@ void validate_box(const Scene& scene, double rods_volume, double largest_diamete
 double rods_volume(const Scene& scene) {
     if (rods_are_alike(scene))
         return static_cast<double>(scene.rods.count) * rod_volume(scene.rods.length, scene.rods.diameter);
-    return parallel_sum<double>(scene.rods.count, [&](std::size_t id) {
-        const RodSize size = rod_size(scene, id);
-        return rod_volume(size.length, size.diameter);
-    });
+    const std::vector<RodSize> sizes = rod_sizes(scene);
+    return parallel_sum<double>(sizes.size(),
+                                [&](std::size_t id) { return rod_volume(sizes[id].length, sizes[id].diameter); });
 }
 
 Vec3 box_edges(const Scene& scene, double rods_volume) {

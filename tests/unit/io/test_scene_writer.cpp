@@ -102,7 +102,7 @@ private:
             if (chance()) scene.rods.count = 0;
         }
         if ((scene.rods.start == StartKind::random || scene.rods.start == StartKind::aligned) && chance()) {
-            scene.rods.count = 1000 + random_() % 1000;
+            scene.rods.count = 100 + random_() % 100;
             scene.rods.diameter_deviation = number(1e-3, 0.25) * scene.rods.diameter;
             scene.rods.length_deviation = number(1e-3, 0.25) * scene.rods.length;
         }

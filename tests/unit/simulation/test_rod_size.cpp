@@ -51,28 +51,32 @@ TEST_CASE("lengths and diameters have the mean and deviation of the scene, and n
     const Scene scene = many_sizes(count);
     // Cut at three deviations, a normal number has a standard deviation of 0.98658.
     const double cut = 0.98658, error = 1.0 / std::sqrt(static_cast<double>(count));
-    const auto [length, length_deviation] =
-        moments(count, [&](std::uint64_t id) { return rod_size(scene, id).length; });
+    const std::vector<RodSize> sizes = rod_sizes(scene);
+    const auto [length, length_deviation] = moments(count, [&](std::uint64_t id) { return sizes[id].length; });
     CHECK(std::fabs(length - 4.0) < 5.0 * 0.8 * error);
     CHECK(std::fabs(length_deviation - cut * 0.8) < 5.0 * 0.8 * error);
-    const auto [diameter, diameter_deviation] =
-        moments(count, [&](std::uint64_t id) { return rod_size(scene, id).diameter; });
+    const auto [diameter, diameter_deviation] = moments(count, [&](std::uint64_t id) { return sizes[id].diameter; });
     CHECK(std::fabs(diameter - 1.0) < 5.0 * 0.1 * error);
     CHECK(std::fabs(diameter_deviation - cut * 0.1) < 5.0 * 0.1 * error);
-    for (std::uint64_t id = 0; id < count; ++id) {
-        const RodSize size = rod_size(scene, id);
+    for (const RodSize& size : sizes) {
         CHECK(std::fabs(size.length - 4.0) <= 2.4);
         CHECK(std::fabs(size.diameter - 1.0) <= 0.3);
     }
+}
+
+TEST_CASE("a rod's size is a function of seed and id: not of how many there are") {
+    const std::vector<RodSize> few = rod_sizes(many_sizes(1000)), many = rod_sizes(many_sizes(5000));
+    for (std::size_t id = 0; id < few.size(); ++id) CHECK(few[id].length == many[id].length);
 }
 
 TEST_CASE("a start holds these rods at the volume fraction of the scene, without overlap") {
     const Scene scene = many_sizes(300);
     const Box box{box_edges(scene), {true, true, true}};
     const Rods rods = make_start(scene, box);
+    const std::vector<RodSize> sizes = rod_sizes(scene);
     for (std::size_t i = 0; i < rods.size(); ++i) {
-        CHECK(rods.length[i] == rod_size(scene, rods.id[i]).length);
-        CHECK(rods.diameter[i] == rod_size(scene, rods.id[i]).diameter);
+        CHECK(rods.length[i] == sizes[rods.id[i]].length);
+        CHECK(rods.diameter[i] == sizes[rods.id[i]].diameter);
     }
     CHECK(total_volume(rods) / box.volume() == doctest::Approx(0.3).epsilon(1e-12));
     CHECK(largest_overlap(rods, box) == 0.0);
