@@ -39,7 +39,7 @@ for moment in (0.5, 2.0, 8.0):
     simulation = magnetic(moment)
     simulation.run(1500)
     seen = []
-    simulation.run(24000, every=100, callback=lambda simulation: seen.append((simulation.rods.axis @ field).mean()))
+    simulation.run(16000, every=100, callback=lambda simulation: seen.append((simulation.rods.axis @ field).mean()))
     error = np.std(np.mean(np.reshape(seen, (8, -1)), axis=1), ddof=1) / np.sqrt(8)
     print(f"{moment:5.1f}    {np.mean(seen):.3f} +- {error:.3f}    {1 / np.tanh(moment) - 1 / moment:.3f}")
 
