@@ -228,14 +228,7 @@ void RunFiles::append_field(const Simulation& simulation, const StressField& fie
 }
 
 void RunFiles::write_checkpoint(const Simulation& simulation, const StepSums& sums) {
-    Checkpoint checkpoint;
-    checkpoint.scene = resolved_scene_;
-    checkpoint.step = simulation.clock().step;
-    checkpoint.time = simulation.clock().time;
-    checkpoint.box = simulation.box();
-    checkpoint.rods = simulation.rods();
-    checkpoint.springs = simulation.settings().springs;
-    checkpoint.accumulators = sums.to_numbers();
+    Checkpoint checkpoint = checkpoint_of(simulation, sums, resolved_scene_);
     series_file_.sync();
     checkpoint.series_rows = series_.rows();
     checkpoint.series_bytes = series_file_.bytes();

@@ -199,16 +199,7 @@ py::array SimulationInPython::series() const {
 }
 
 void SimulationInPython::save(const std::string& folder) const {
-    const Simulation& now = simulation();
-    Checkpoint checkpoint;
-    checkpoint.scene = to_toml(scene_.scene);
-    checkpoint.step = now.clock().step;
-    checkpoint.time = now.clock().time;
-    checkpoint.box = now.box();
-    checkpoint.rods = now.rods();
-    checkpoint.springs = now.settings().springs;
-    checkpoint.accumulators = sums_.to_numbers();
-    write_checkpoint(folder, checkpoint);
+    write_checkpoint(folder, checkpoint_of(simulation(), sums_, to_toml(scene_.scene)));
 }
 
 int SimulationInPython::traverse(visitproc visit, void* argument) const {

@@ -101,6 +101,18 @@ StepSums StepSums::from_numbers(const std::vector<double>& numbers) {
     return sums;
 }
 
+Checkpoint checkpoint_of(const Simulation& simulation, const StepSums& sums, std::string scene) {
+    Checkpoint checkpoint;
+    checkpoint.scene = std::move(scene);
+    checkpoint.step = simulation.clock().step;
+    checkpoint.time = simulation.clock().time;
+    checkpoint.box = simulation.box();
+    checkpoint.rods = simulation.rods();
+    checkpoint.springs = simulation.settings().springs;
+    checkpoint.accumulators = sums.to_numbers();
+    return checkpoint;
+}
+
 StepSums first_sums(const Scene& scene, const Simulation& simulation) {
     StepSums sums;
     sums.field = make_field(scene, simulation.box());

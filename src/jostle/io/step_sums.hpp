@@ -1,8 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "jostle/io/checkpoint.hpp"
 #include "jostle/simulation/scene.hpp"
 #include "jostle/simulation/simulation.hpp"
 #include "jostle/stress/active_stress.hpp"
@@ -42,6 +44,9 @@ struct StepSums {
 private:
     void add(const StepReport& report);
 };
+
+/// A checkpoint of the state and the sums, of a run that keeps no files.
+Checkpoint checkpoint_of(const Simulation& simulation, const StepSums& sums, std::string scene);
 
 /// Sums at the beginning of a run.
 StepSums first_sums(const Scene& scene, const Simulation& simulation);
