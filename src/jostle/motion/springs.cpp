@@ -21,16 +21,16 @@ Springs::Springs(std::vector<Spring> springs, const Box& box, const Mobility& mo
 
 void Springs::add_to(Velocities& known, const Rods& rods, const StepContext& /*context*/) const {
     assert(known.size() == rods.size());
-    const Velocities own = velocities(rods);
+    const Velocities own = velocities(rods, pulls(rods));
     parallel_for(rods.size(), [&](std::size_t i) {
         known.linear[i] += own.linear[i];
         known.angular[i] += own.angular[i];
     });
 }
 
-Velocities Springs::velocities(const Rods& rods) const {
+Velocities Springs::velocities(const Rods& rods, std::span<const SpringPull> pulls) const {
     Velocities own(rods.size());
-    mobility_.apply(rods, spring_forces(springs_, spring_pulls(springs_, rods, box_), rods), own);
+    mobility_.apply(rods, spring_forces(springs_, pulls, rods), own);
     return own;
 }
 

@@ -20,8 +20,11 @@ public:
     /// Throws InputError if a spring names a rod that is not there.
     void add_to(Velocities& known, const Rods& rods, const StepContext& context) const override;
 
-    /// The springs' part of U_known (N). Errors: as `add_to`.
-    Velocities velocities(const Rods& rods) const;
+    /// Their pulls as the rods stand, one a spring. Errors: as `add_to`.
+    std::vector<SpringPull> pulls(const Rods& rods) const { return spring_pulls(springs_, rods, box_); }
+
+    /// The part of U_known (N) that these pulls give.
+    Velocities velocities(const Rods& rods, std::span<const SpringPull> pulls) const;
 
 private:
     std::vector<Spring> springs_;

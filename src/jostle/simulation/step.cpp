@@ -214,8 +214,8 @@ Vec3 Simulation::turned_by_springs(std::uint32_t row) const {
 // contacts do in it (eq. 1.17).
 void Simulation::measure_spring_stress(StepReport& report) {
     if (springs_ == nullptr) return;
-    const std::vector<Spring>& springs = settings_.springs;
-    by_springs_ = springs_->velocities(rods_);
+    const std::vector<SpringPull> pulls = springs_->pulls(rods_);
+    by_springs_ = springs_->velocities(rods_, pulls);
     Velocities pushed = by_springs_;
     parallel_for(solution_.rods.size(), [&](std::size_t place) {
         const std::uint32_t row = solution_.rods[place];
@@ -228,7 +228,7 @@ void Simulation::measure_spring_stress(StepReport& report) {
         centre[i] = rods_.centre[i] + half_step * pushed.linear[i];
         axis[i] = rotated(rods_.axis[i], half_step * pushed.angular[i]);
     });
-    report.spring_virial = sum_of_spring_stresses(springs, spring_pulls(springs, rods_, box_), rods_, centre, axis);
+    report.spring_virial = sum_of_spring_stresses(settings_.springs, pulls, rods_, centre, axis);
 }
 
 // Theory 2.4: q^{k+1} = q^k + dt (U_known + U_C), axes by the exponential map.

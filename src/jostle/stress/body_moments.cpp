@@ -2,21 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "jostle/error/input_error.hpp"
 #include "jostle/math/symmetric_eigen.hpp"
+#include "jostle/stress/refuse.hpp"
 
 namespace jostle {
 
 namespace {
-
-[[noreturn]] void refuse(std::string key, std::string value, std::string problem, std::string allowed) {
-    throw InputError({.key = std::move(key),
-                      .value = std::move(value),
-                      .problem = std::move(problem),
-                      .allowed = std::move(allowed),
-                      .suggestion = "",
-                      .place = {}});
-}
 
 std::string words_of(const Mat3& a) {
     return fmt::format("{}", fmt::join(a.m, " "));

@@ -2,22 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "jostle/error/input_error.hpp"
+#include "jostle/stress/refuse.hpp"
 
 namespace jostle {
 
 namespace {
-
-[[noreturn]] void refuse(std::string key, std::string value, std::string problem, std::string allowed) {
-    throw InputError({.key = std::move(key),
-                      .value = std::move(value),
-                      .problem = std::move(problem),
-                      .allowed = std::move(allowed),
-                      .suggestion = "",
-                      .place = {}});
-}
 
 void require_sound(const BodyContact& contact, std::size_t place, std::size_t bodies) {
     for (const std::uint32_t body : {contact.body_1, contact.body_2})

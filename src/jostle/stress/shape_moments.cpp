@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "jostle/error/input_error.hpp"
+#include "jostle/stress/refuse.hpp"
 #include "jostle/stress/spherocylinder_moments.hpp"
 
 namespace jostle {
@@ -13,15 +13,6 @@ namespace jostle {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-[[noreturn]] void refuse(const char* key, std::string value, const char* problem, std::string allowed) {
-    throw InputError({.key = key,
-                      .value = std::move(value),
-                      .problem = problem,
-                      .allowed = std::move(allowed),
-                      .suggestion = "",
-                      .place = {}});
-}
 
 std::string words_of(const Vec3& a) {
     return fmt::format("{} {} {}", a.x, a.y, a.z);
