@@ -78,12 +78,16 @@ void Simulation::find_mobilities() {
     mobility_->update(rods_);
     shift_.assign(rods_.size(), 0.0);
     if (!settings_.brownian_correction) return;
+    // The compliance grows with L/D, and no pair's is above the larger of its two rods'.
+    const double slenderest =
+        parallel_max(rods_.size(), 0.0, [&](std::size_t i) { return rods_.length[i] / rods_.diameter[i]; });
+    const double most_compliant = contact_compliance(slenderest, 1.0);
     parallel_for(rods_.size(), [&](std::size_t i) {
         // sqrt(a + b) <= sqrt(a) + sqrt(b): each rod's part of A_ll bounds its part of the shift.
         const RodMobility rod = mobility_->of_rod(i);
         const double half = 0.5 * rods_.length[i];
         const double largest = std::max(rod.parallel, rod.perpendicular) + half * half * rod.rotational;
-        shift_[i] = brownian_shift(settings_.kT, settings_.time_step, largest);
+        shift_[i] = brownian_shift(settings_.kT, settings_.time_step, largest, most_compliant);
     });
 }
 

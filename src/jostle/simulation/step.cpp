@@ -84,8 +84,9 @@ void Simulation::solve_contacts(StepReport& report) {
     using Include = ContactMatrix::Include;
     ContactMatrix contact_matrix(contacts_, rods_.size(),
                                  mobility_->couples_rods() ? Include::all_rods : Include::rods_with_contacts);
-    const double compliance = corrects_brownian_motion() ? contact_compliance : 0.0;
-    DelassusOperator matrix(contact_matrix, rods_, *mobility_, compliance);
+    using ContactKind = DelassusOperator::ContactKind;
+    DelassusOperator matrix(contact_matrix, rods_, *mobility_,
+                            corrects_brownian_motion() ? ContactKind::compliant : ContactKind::hard);
     std::vector<double> b;
     extend_gap_velocities(matrix, b);
     const auto add_missed = [&](const ContactSolution& solution, bool final) {
@@ -125,7 +126,9 @@ void Simulation::extend_gap_velocities(const DelassusOperator& matrix, std::vect
         const std::size_t l = known + k;
         const Contact& contact = contacts_.contact[l];
         if (settings_.brownian_correction) {
-            b[l] = (contact.gap_after - brownian_shift(settings_.kT, dt, matrix.gap_mobility(l))) / dt;
+            b[l] =
+                (contact.gap_after - brownian_shift(settings_.kT, dt, matrix.gap_mobility(l), matrix.compliance(l))) /
+                dt;
             return;
         }
         const auto point_velocity = [&](std::uint32_t row, double arm) {

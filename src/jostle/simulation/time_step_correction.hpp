@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 
 namespace jostle {
 
@@ -8,18 +9,25 @@ namespace jostle {
 // (theory, section 3; docs/decisions/0015-compliant-contacts.md).
 
 /// kappa: a contact with the force gamma leaves its gap kappa A_ll gamma dt below the shift. Any value is right for two
-/// rods alone if the shift belongs to it; this one makes up for rods that are held from several sides.
-inline constexpr double contact_compliance = 0.25;
+/// rods alone if the shift belongs to it; this one makes up for rods that are held from several sides, the more the
+/// longer they are and the nearer to parallel. `aspect_ratio` is L/D, `cosine` that of the angle between the axes.
+inline double contact_compliance(double aspect_ratio, double cosine) {
+    return 0.25 * (1.0 + aspect_ratio * cosine * cosine);
+}
 
 /// s(kappa): a Gaussian walk of variance sigma^2 a step, whose ends beyond a wall are brought back to within
 /// kappa/(1 + kappa) of their distance, is as continuous motion reflected at a wall displaced by s sigma. For kappa = 0
-/// that is -zeta(1/2)/sqrt(2 pi) = 0.5826 (Chernoff 1965; Siegmund 1979).
-/// tests/unit/simulation/test_time_step_correction.cpp solves for it.
-inline constexpr double discrete_watching = 0.7380301893698;
+/// that is -zeta(1/2)/sqrt(2 pi) = 0.5826 (Chernoff 1965; Siegmund 1979); for large kappa, sqrt(pi (1 + 2 kappa)/8) of
+/// a harmonic wall. This runs from the one to the other, within 5e-4 of s at every kappa
+/// (tests/unit/simulation/test_time_step_correction.cpp solves for s).
+inline double discrete_watching(double kappa) {
+    constexpr double hard = 0.5825971579390107, harmonic = std::numbers::pi / 8.0;
+    return std::sqrt(harmonic * (1.0 + 2.0 * kappa) - (harmonic - hard * hard) / (1.0 + 0.84 * kappa));
+}
 
-/// The shift s sqrt(2 kT dt A_ll) of a gap whose rods have the relative mobility A_ll along the normal.
-inline double brownian_shift(double kT, double time_step, double relative_mobility) {
-    return discrete_watching * std::sqrt(2.0 * kT * time_step * relative_mobility);
+/// The shift s(kappa) sqrt(2 kT dt A_ll) of a gap whose rods have the relative mobility A_ll along the normal.
+inline double brownian_shift(double kT, double time_step, double relative_mobility, double kappa) {
+    return discrete_watching(kappa) * std::sqrt(2.0 * kT * time_step * relative_mobility);
 }
 
 }  // namespace jostle
