@@ -15,20 +15,35 @@ namespace {
 /// normal, so rounding of the nearest points does not matter to it; to the gap it does, for nearly parallel rods.
 constexpr float bound_error = 1e-5F, gap_error = 2e-3F;
 
+/// By which the square of a pair's touching is smaller than that of parallel rods.
+template <class Real>
+Real touching_factor(Real crossed, Real cosine) {
+    const Real floor = crossed * crossed;
+    return floor + (1 - floor) * cosine * cosine;
+}
+
+/// What a pair's touching is at most.
+double most_touching(const Touching& touching, const PairName& name, const PairGeometry& pair) {
+    const double i = touching.part[name.i], j = touching.part[name.j];
+    const double parallel = name.i == name.j ? 4.0 * i * i : i * i + j * j;
+    return std::sqrt(parallel * touching_factor(touching.crossed, dot(pair.axis_i, pair.axis_j)));
+}
+
 /// Pairs side by side, for vector instructions.
 struct Batch {
     static constexpr std::size_t size = NeighbourList::block_size;
     using Row = std::array<float, size>;
     std::array<Row, 3> between, moved, axis_i, axis_j, axis_i_after, axis_j_after;
     Row half_i, half_j, radii;
+    Row touching;     ///< squared, of parallel rods; then of these, not squared
     Row gap;          ///< before the step
     Row bound_after;  ///< lower bound of the gap after the known motion: the width of a slab with `normal`
     std::array<Row, 3> normal;
 };
 
-/// The gaps of pairs, and the width of the empty slab between the moved rods whose faces
+/// The gaps of pairs, at most where they touch, and the width of the empty slab between the moved rods whose faces
 /// are normal to the line between the nearest points.
-JOSTLE_VECTORISED void glance_at(std::size_t count, Batch& batch) {
+JOSTLE_VECTORISED void glance_at(std::size_t count, float crossed, Batch& batch) {
     const auto& [x, y, z] = batch.between;
     const auto& [mx, my, mz] = batch.moved;
     const auto& [ux, uy, uz] = batch.axis_i;
@@ -45,6 +60,8 @@ JOSTLE_VECTORISED void glance_at(std::size_t count, Batch& batch) {
         normal_y[k] = ny;
         normal_z[k] = nz;
         batch.gap[k] = distance - batch.radii[k];
+        const float cosine = ux[k] * vx[k] + uy[k] * vy[k] + uz[k] * vz[k];
+        batch.touching[k] = std::sqrt(batch.touching[k] * touching_factor(crossed, cosine));
         batch.bound_after[k] = (x[k] + mx[k]) * nx + (y[k] + my[k]) * ny + (z[k] + mz[k]) * nz -
                                batch.half_i[k] * std::fabs(px[k] * nx + py[k] * ny + pz[k] * nz) -
                                batch.half_j[k] * std::fabs(qx[k] * nx + qy[k] * ny + qz[k] * nz) - batch.radii[k];
@@ -57,14 +74,14 @@ double CollisionSearch::find(const Rods& rods, const Box& box, const RodMotion& 
     reach_.resize(rods.size());
     glance_.resize(rods.size());
     parallel_for(rods.size(), [&](std::size_t i) {
-        reach_[i] = std::max(motion.displacement[i] + motion.touching[i] + push_allowance_, 0.5 * range_);
+        reach_[i] = std::max(motion.displacement[i] + motion.touching.part[i] + push_allowance_, 0.5 * range_);
         glance_[i] = {rods.centre[i],
                       in_float(rods.axis[i]),
                       in_float(motion.centre[i] - rods.centre[i]),
                       in_float(motion.axis[i]),
                       static_cast<float>(0.5 * rods.length[i]),
                       static_cast<float>(0.5 * rods.diameter[i]),
-                      static_cast<float>(motion.touching[i]),
+                      static_cast<float>(motion.touching.part[i] * motion.touching.part[i]),
                       rods.image[i]};
     });
     neighbours_.update(rods, box, reach_);
@@ -102,13 +119,13 @@ void CollisionSearch::search_block(std::size_t block, const Rods& rods, const Bo
         batch.half_i[count] = a.half_length;
         batch.half_j[count] = b.half_length;
         batch.radii[count] = a.radius + b.radius;
+        batch.touching[count] = (a.squared_touching + b.squared_touching) * (i == j ? 2.0F : 1.0F);
         ++count;
     });
-    glance_at(count, batch);
+    glance_at(count, static_cast<float>(motion.touching.crossed), batch);
     for (std::size_t k = 0; k < count; ++k) {
         const float size = batch.half_i[k] + batch.half_j[k] + batch.radii[k];
-        const float touching = glance_[names[k].i].touching + glance_[names[k].j].touching;
-        const float slack = batch.bound_after[k] - bound_error * size - touching;
+        const float slack = batch.bound_after[k] - bound_error * size - batch.touching[k];
         const bool clear = batch.gap[k] - gap_error * batch.radii[k] > static_cast<float>(range_);
         if (clear && slack >= static_cast<float>(margin_))
             found.bystanders.push_back({names[k], slack, {batch.normal[0][k], batch.normal[1][k], batch.normal[2][k]}});
@@ -128,25 +145,34 @@ void CollisionSearch::look_closely(const PairName& name, const Rods& rods, const
 
     const PairGeometry after = pair_geometry(rods, i, j, displacement, motion.centre, motion.axis);
     const NearestPoints nearest_after = nearest_points(after);
-    const double distance_after = norm(nearest_after.separation);
-    const double slack = distance_after - after.radii - motion.touching[i] - motion.touching[j];
+    const double distance_after = norm(nearest_after.separation), gap_after = distance_after - after.radii;
     const bool passed_through = dot(nearest.separation, nearest_after.separation) <= 0.0;
-    if (gap >= range_ && slack >= margin_ && !passed_through) {
-        const double rounding = 1e-6 * after.radii;
-        found.bystanders.push_back(
-            {name, static_cast<float>(slack - rounding), in_float(nearest_after.separation / distance_after)});
-        return;
+    const bool always = gap < range_ || passed_through;
+    double touching = most_touching(motion.touching, name, before);
+    if (always || gap_after - touching < margin_) {
+        const std::size_t known = found.contacts.size();
+        touching = append(name, before, nearest, distance, after, motion.touching, found.contacts);
+        if (always || gap_after - touching < margin_) return;
+        found.contacts.resize(known);
     }
-    append(name, before, nearest, distance, after, found.contacts);
+    const double slack = gap_after - touching - 1e-6 * after.radii;
+    found.bystanders.push_back({name, static_cast<float>(slack), in_float(nearest_after.separation / distance_after)});
 }
 
-/// Appends the contacts of a pair, with their gaps after the known motion.
-void CollisionSearch::append(const PairName& name, const PairGeometry& before, const NearestPoints& nearest,
-                             double distance, const PairGeometry& after, Contacts& contacts) const {
+/// Appends the contacts of a pair, with their room. Returns the gap at which the first of them touches.
+double CollisionSearch::append(const PairName& name, const PairGeometry& before, const NearestPoints& nearest,
+                               double distance, const PairGeometry& after, const Touching& touching,
+                               Contacts& contacts) const {
     const std::size_t first = contacts.size();
     append_contacts(name, before, nearest, distance, reach_[name.i] + reach_[name.j], contacts);
-    for (std::size_t l = first; l < contacts.size(); ++l)
-        contacts.contact[l].gap_after = gap_of_contact(contacts.contact[l], contacts.feature[l], after);
+    double largest = 0.0;
+    for (std::size_t l = first; l < contacts.size(); ++l) {
+        Contact& contact = contacts.contact[l];
+        const double gap = touching.of(contact);
+        contact.room = gap_of_contact(contact, contacts.feature[l], after) - gap;
+        largest = std::max(largest, gap);
+    }
+    return largest;
 }
 
 bool CollisionSearch::is_contact(const PairName& name, const Contacts& contacts) const {
@@ -181,15 +207,20 @@ std::vector<PairName> CollisionSearch::missed_pairs(const Rods& rods, const Box&
                                                     std::span<const Push> pushes, const RodAfter& after,
                                                     bool thorough) {
     const auto missed = [&](const PairName& name) {
-        const auto [centre_i, axis_i] = after(name.i);
-        const auto [centre_j, axis_j] = after(name.j);
-        const PairGeometry pair = {centre_j + box.displacement(name.image) - centre_i,
-                                   axis_i,
-                                   axis_j,
-                                   0.5 * rods.length[name.i],
-                                   0.5 * rods.length[name.j],
-                                   0.5 * (rods.diameter[name.i] + rods.diameter[name.j])};
-        return pair_gap(pair) < motion.touching[name.i] + motion.touching[name.j] && !is_contact(name, contacts);
+        const auto& [i, j, image] = name;
+        const auto [centre_i, axis_i] = after(i);
+        const auto [centre_j, axis_j] = after(j);
+        const Vec3 displacement = box.displacement(image);
+        const PairGeometry before = pair_geometry(rods, i, j, displacement, rods.centre, rods.axis);
+        PairGeometry pair = before;
+        pair.between = centre_j + displacement - centre_i;
+        pair.axis_i = axis_i;
+        pair.axis_j = axis_j;
+        const double gap = pair_gap(pair);
+        if (gap >= most_touching(motion.touching, name, before) || is_contact(name, contacts)) return false;
+        const NearestPoints nearest = nearest_points(before);
+        Contacts points;
+        return gap < append(name, before, nearest, norm(nearest.separation), pair, motion.touching, points);
     };
     std::vector<std::vector<PairName>> found(blocks_.size());
     parallel_for_parts(blocks_.size(), [&](std::size_t block) {
@@ -232,7 +263,7 @@ void CollisionSearch::add(std::span<const PairName> missed, const Rods& rods, co
         const PairGeometry before = pair_geometry(rods, i, j, displacement, rods.centre, rods.axis);
         const PairGeometry after = pair_geometry(rods, i, j, displacement, motion.centre, motion.axis);
         const NearestPoints nearest = nearest_points(before);
-        append(name, before, nearest, norm(nearest.separation), after, contacts);
+        append(name, before, nearest, norm(nearest.separation), after, motion.touching, contacts);
         added_.push_back(name);
     }
     std::sort(added_.begin(), added_.end());

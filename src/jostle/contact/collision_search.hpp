@@ -12,11 +12,20 @@
 
 namespace jostle {
 
+/// The gap below which two rods touch: above 0 with the time-step correction.
+struct Touching {
+    /// (N) Each rod's part; that of a pair is at most sqrt(part_i^2 + part_j^2) for parallel axes (2 part_i for a rod
+    /// and its own image), and that times `crossed` for crossed ones. In between its square is linear in cos^2.
+    std::span<const double> part;
+    double crossed = 1.0;
+    std::function<double(const Contact&)> of;  ///< exactly
+};
+
 /// How rods move in a step.
 struct RodMotion {
     std::span<const Vec3> centre, axis;    ///< (N) after it; centres are not wrapped
     std::span<const double> displacement;  ///< (N) by the known motion, of any point of the rod, at most
-    std::span<const double> touching;      ///< (N) each rod's part in the largest gap that still counts as touching
+    Touching touching;
 };
 
 /// How contact forces push a rod in a step: the displacement of its centre, and of its ends to both sides of that; and
@@ -69,7 +78,7 @@ private:
     struct RodGlance {
         Vec3 centre;
         std::array<float, 3> axis, moved, axis_after;
-        float half_length, radius, touching;
+        float half_length, radius, squared_touching;
         Image image;
     };
     struct Bystander {
@@ -85,8 +94,8 @@ private:
 
     void look_closely(const PairName& name, const Rods& rods, const Box& box, const RodMotion& motion,
                       Found& found) const;
-    void append(const PairName& name, const PairGeometry& before, const NearestPoints& nearest, double distance,
-                const PairGeometry& after, Contacts& contacts) const;
+    double append(const PairName& name, const PairGeometry& before, const NearestPoints& nearest, double distance,
+                  const PairGeometry& after, const Touching& touching, Contacts& contacts) const;
     void search_block(std::size_t block, const Rods& rods, const Box& box, const RodMotion& motion);
     static bool may_meet(const Bystander& bystander, const Push& i, const Push& j);
     bool is_contact(const PairName& name, const Contacts& contacts) const;

@@ -20,8 +20,8 @@ struct Contact {
     Vec3 normal;
     double arm_i = 0.0;
     double arm_j = 0.0;
-    double gap = 0.0;        ///< distance of the segments' points less (D_i + D_j)/2
-    double gap_after = 0.0;  ///< the same after the known motion of the step (CollisionSearch)
+    double gap = 0.0;   ///< distance of the segments' points less (D_i + D_j)/2
+    double room = 0.0;  ///< the gap after the known motion of the step, less that at which they touch (CollisionSearch)
 };
 
 /// Which points a contact follows while the rods move.

@@ -17,7 +17,9 @@ double point_mobility(const Rod& rod, const Vec3& normal, double arm) {
     return m.parallel * along * along + (m.perpendicular + arm * arm * m.rotational) * across_squared;
 }
 
-double diagonal_element(const Contact& contact, const Rod& i, const Rod& j) {
+}  // namespace
+
+double gap_mobility_of(const Contact& contact, const Rod& i, const Rod& j) {
     if (contact.i == contact.j) {  // own image: the centre stays, only turning opens the gap
         const double along = dot(contact.normal, i.axis);
         const double lever = contact.arm_j - contact.arm_i;
@@ -31,8 +33,6 @@ double compliance_of(const Contact& contact, const Rods& rods) {
         (rods.length[contact.i] + rods.length[contact.j]) / (rods.diameter[contact.i] + rods.diameter[contact.j]);
     return contact_compliance(aspect_ratio, dot(rods.axis[contact.i], rods.axis[contact.j]));
 }
-
-}  // namespace
 
 DelassusOperator::DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods, const Mobility& mobility,
                                    ContactKind kind)
@@ -49,13 +49,13 @@ void DelassusOperator::extend() {
         rods_[place] = {all_rods_.axis[rows[place]], mobility_.of_rod(rows[place])};
     });
     diagonal_.resize(contact_matrix_.size());
-    if (kind_ == ContactKind::compliant) compliance_.resize(contact_matrix_.size());
+    if (compliant()) compliance_.resize(contact_matrix_.size());
     parallel_for(diagonal_.size() - known_contacts, [&](std::size_t k) {
         const std::size_t l = known_contacts + k;
         const auto [i, j] = contact_matrix_.ends()[l];
         const Contact& contact = contact_matrix_.contacts().contact[l];
-        if (kind_ == ContactKind::compliant) compliance_[l] = compliance_of(contact, all_rods_);
-        diagonal_[l] = (1.0 + compliance(l)) * diagonal_element(contact, rods_[i], rods_[j]);
+        if (compliant()) compliance_[l] = compliance_of(contact, all_rods_);
+        diagonal_[l] = (1.0 + compliance(l)) * gap_mobility_of(contact, rods_[i], rods_[j]);
     });
 }
 
@@ -69,7 +69,7 @@ void DelassusOperator::apply(std::span<const double> gamma, std::span<double> ra
 void DelassusOperator::rates(std::span<const ContactVelocity> velocities, std::span<const double> gamma,
                              std::span<double> rates) const {
     contact_matrix_.apply_transpose(velocities, rates);
-    if (kind_ == ContactKind::hard) return;
+    if (!compliant()) return;
     parallel_for(rates.size(), [&](std::size_t l) { rates[l] += compliance_[l] * gap_mobility(l) * gamma[l]; });
 }
 

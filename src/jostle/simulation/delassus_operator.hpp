@@ -26,6 +26,7 @@ public:
     /// A_ll of each rod's own mobility (for a mobility that couples rods, the local part of it), compliance included.
     std::span<const double> diagonal() const override { return diagonal_; }
 
+    bool compliant() const { return kind_ == ContactKind::compliant; }
     /// kappa_l
     double compliance(std::size_t l) const { return compliance_.empty() ? 0.0 : compliance_[l]; }
     /// (D^T M D)_ll: how fast a force on contact l alone opens its gap.
@@ -62,6 +63,12 @@ private:
     mutable std::vector<ContactForce> forces_;         ///< (places) scratch
     mutable std::vector<ContactVelocity> velocities_;  ///< (places) scratch
 };
+
+/// (D^T M D)_ll of a contact between these two rods.
+double gap_mobility_of(const Contact& contact, const DelassusOperator::Rod& i, const DelassusOperator::Rod& j);
+
+/// kappa of a contact (theory, eq. 3.5b).
+double compliance_of(const Contact& contact, const Rods& rods);
 
 /// The answer of one rod that feels its own drag only: U = [parallel n n + perpendicular (I - n n)] F, and W = Omega x
 /// n = rotational (I - n n) lever.

@@ -85,8 +85,9 @@ private:
 
     void take_over_rods();
     void find_mobilities();
-    RodMotion motion() const { return {moved_.centre, moved_.axis, displacement_, shift_}; }
-    void extend_gap_velocities(const DelassusOperator& matrix, std::vector<double>& b) const;
+    RodMotion motion() const;
+    double shift_of(const Contact& contact) const;
+    void extend_gap_velocities(std::vector<double>& b) const;
     bool add_missed_contacts(const ContactMatrix& contact_matrix, const ContactSolution& solution, bool final);
     bool corrects_brownian_motion() const { return settings_.brownian_correction && settings_.kT > 0.0; }
     const std::vector<Vec3>& turned_half_way();
@@ -105,10 +106,11 @@ private:
     std::vector<std::uint64_t> ids_before_;  ///< (N) of the rows in the last step, where cells may have died since
 
     CollisionSearch search_;
-    std::vector<double> shift_;         ///< (N) upper bound of each rod's part in the shift of a gap
-    Velocities known_;                  ///< (N) U_known
-    Velocities by_springs_;             ///< (N) the springs' part of it; (0) without springs
-    std::vector<double> displacement_;  ///< (N) by it, of any point of the rod, at most
+    std::vector<double> largest_shift_;  ///< (N) each rod's part in the shift of a gap, at most
+    double shift_of_crossed_ = 1.0;      ///< at most, relative to that of parallel rods
+    Velocities known_;                   ///< (N) U_known
+    Velocities by_springs_;              ///< (N) the springs' part of it; (0) without springs
+    std::vector<double> displacement_;   ///< (N) by it, of any point of the rod, at most
     struct {
         std::vector<Vec3> centre, axis;
     } moved_;                   ///< (N) the rods after the known motion

@@ -79,6 +79,15 @@ void Simulation::find_contacts(StepReport& report) {
     report.max_overlap = search_.find(rods_, box_, motion(), contacts_);
 }
 
+// Theory 3: the gap at which two compliant contacts touch, eq. 3.5.
+double Simulation::shift_of(const Contact& contact) const {
+    const auto rod = [this](std::uint32_t row) {
+        return DelassusOperator::Rod{rods_.axis[row], mobility_->of_rod(row)};
+    };
+    return brownian_shift(settings_.kT, settings_.time_step, gap_mobility_of(contact, rod(contact.i), rod(contact.j)),
+                          compliance_of(contact, rods_));
+}
+
 // Theory 2.3: 0 <= A gamma + b  perp  gamma >= 0, with more contacts where forces turn out to bring rods together.
 void Simulation::solve_contacts(StepReport& report) {
     using Include = ContactMatrix::Include;
@@ -88,12 +97,12 @@ void Simulation::solve_contacts(StepReport& report) {
     DelassusOperator matrix(contact_matrix, rods_, *mobility_,
                             corrects_brownian_motion() ? ContactKind::compliant : ContactKind::hard);
     std::vector<double> b;
-    extend_gap_velocities(matrix, b);
+    extend_gap_velocities(b);
     const auto add_missed = [&](const ContactSolution& solution, bool final) {
         if (!add_missed_contacts(contact_matrix, solution, final)) return false;
         contact_matrix.extend();
         matrix.extend();
-        extend_gap_velocities(matrix, b);
+        extend_gap_velocities(b);
         return true;
     };
     const SolverOutcome outcome =
@@ -118,7 +127,7 @@ void Simulation::repel(StepReport& report) {
 
 // b of the contact problem (theory, eq. 3.3): the gap after the known motion, shifted, over dt; or as in the paper,
 // b = Phi/dt + D^T U_known.
-void Simulation::extend_gap_velocities(const DelassusOperator& matrix, std::vector<double>& b) const {
+void Simulation::extend_gap_velocities(std::vector<double>& b) const {
     const double dt = settings_.time_step;
     const std::size_t known = b.size();
     b.resize(contacts_.size());
@@ -126,9 +135,7 @@ void Simulation::extend_gap_velocities(const DelassusOperator& matrix, std::vect
         const std::size_t l = known + k;
         const Contact& contact = contacts_.contact[l];
         if (settings_.brownian_correction) {
-            b[l] =
-                (contact.gap_after - brownian_shift(settings_.kT, dt, matrix.gap_mobility(l), matrix.compliance(l))) /
-                dt;
+            b[l] = contact.room / dt;
             return;
         }
         const auto point_velocity = [&](std::uint32_t row, double arm) {

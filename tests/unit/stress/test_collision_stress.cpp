@@ -64,7 +64,7 @@ TEST_CASE("sum over contacts of the pair stress = sum of virials + sum over rods
         Mat3 over_contacts;
         for (int k = 0; k < 200; ++k) {
             const Contact contact = random_contact(generator, rods);
-            const auto& [i, j, normal, arm_i, arm_j, gap, gap_after] = contact;
+            const auto& [i, j, normal, arm_i, arm_j, gap, room] = contact;
             contacts.push_back(contact, {0, 0, 0}, ContactFeature::nearest);
             gamma.push_back(force(generator));
             const double apart = distance == ContactDistance::touching ? 0.0 : gap;
