@@ -15,18 +15,10 @@ namespace {
 /// normal, so rounding of the nearest points does not matter to it; to the gap it does, for nearly parallel rods.
 constexpr float bound_error = 1e-5F, gap_error = 2e-3F;
 
-/// By which the square of a pair's touching is smaller than that of parallel rods.
-template <class Real>
-Real touching_factor(Real crossed, Real cosine) {
-    const Real floor = crossed * crossed;
-    return floor + (1 - floor) * cosine * cosine;
-}
-
 /// What a pair's touching is at most.
-double most_touching(const Touching& touching, const PairName& name, const PairGeometry& pair) {
+double most_touching(const Touching& touching, const PairName& name) {
     const double i = touching.part[name.i], j = touching.part[name.j];
-    const double parallel = name.i == name.j ? 4.0 * i * i : i * i + j * j;
-    return std::sqrt(parallel * touching_factor(touching.crossed, dot(pair.axis_i, pair.axis_j)));
+    return name.i == name.j ? 2.0 * i : std::sqrt(i * i + j * j);
 }
 
 /// Pairs side by side, for vector instructions.
@@ -35,15 +27,14 @@ struct Batch {
     using Row = std::array<float, size>;
     std::array<Row, 3> between, moved, axis_i, axis_j, axis_i_after, axis_j_after;
     Row half_i, half_j, radii;
-    Row touching;     ///< squared, of parallel rods; then of these, not squared
     Row gap;          ///< before the step
     Row bound_after;  ///< lower bound of the gap after the known motion: the width of a slab with `normal`
     std::array<Row, 3> normal;
 };
 
-/// The gaps of pairs, at most where they touch, and the width of the empty slab between the moved rods whose faces
+/// The gaps of pairs, and the width of the empty slab between the moved rods whose faces
 /// are normal to the line between the nearest points.
-JOSTLE_VECTORISED void glance_at(std::size_t count, float crossed, Batch& batch) {
+JOSTLE_VECTORISED void glance_at(std::size_t count, Batch& batch) {
     const auto& [x, y, z] = batch.between;
     const auto& [mx, my, mz] = batch.moved;
     const auto& [ux, uy, uz] = batch.axis_i;
@@ -60,8 +51,6 @@ JOSTLE_VECTORISED void glance_at(std::size_t count, float crossed, Batch& batch)
         normal_y[k] = ny;
         normal_z[k] = nz;
         batch.gap[k] = distance - batch.radii[k];
-        const float cosine = ux[k] * vx[k] + uy[k] * vy[k] + uz[k] * vz[k];
-        batch.touching[k] = std::sqrt(batch.touching[k] * touching_factor(crossed, cosine));
         batch.bound_after[k] = (x[k] + mx[k]) * nx + (y[k] + my[k]) * ny + (z[k] + mz[k]) * nz -
                                batch.half_i[k] * std::fabs(px[k] * nx + py[k] * ny + pz[k] * nz) -
                                batch.half_j[k] * std::fabs(qx[k] * nx + qy[k] * ny + qz[k] * nz) - batch.radii[k];
@@ -102,6 +91,7 @@ void CollisionSearch::search_block(std::size_t block, const Rods& rods, const Bo
     std::array<PairName, Batch::size> names;
     std::size_t count = 0;
     Batch batch;
+    Batch::Row touching;
     neighbours_.for_close_pairs(block, [&](std::size_t pair) {
         const std::uint32_t i = neighbours_.i(pair), j = neighbours_.j(pair);
         const RodGlance &a = glance_[i], &b = glance_[j];
@@ -119,13 +109,13 @@ void CollisionSearch::search_block(std::size_t block, const Rods& rods, const Bo
         batch.half_i[count] = a.half_length;
         batch.half_j[count] = b.half_length;
         batch.radii[count] = a.radius + b.radius;
-        batch.touching[count] = (a.squared_touching + b.squared_touching) * (i == j ? 2.0F : 1.0F);
+        touching[count] = std::sqrt((a.squared_touching + b.squared_touching) * (i == j ? 2.0F : 1.0F));
         ++count;
     });
-    glance_at(count, static_cast<float>(motion.touching.crossed), batch);
+    glance_at(count, batch);
     for (std::size_t k = 0; k < count; ++k) {
         const float size = batch.half_i[k] + batch.half_j[k] + batch.radii[k];
-        const float slack = batch.bound_after[k] - bound_error * size - batch.touching[k];
+        const float slack = batch.bound_after[k] - bound_error * size - touching[k];
         const bool clear = batch.gap[k] - gap_error * batch.radii[k] > static_cast<float>(range_);
         if (clear && slack >= static_cast<float>(margin_))
             found.bystanders.push_back({names[k], slack, {batch.normal[0][k], batch.normal[1][k], batch.normal[2][k]}});
@@ -148,7 +138,7 @@ void CollisionSearch::look_closely(const PairName& name, const Rods& rods, const
     const double distance_after = norm(nearest_after.separation), gap_after = distance_after - after.radii;
     const bool passed_through = dot(nearest.separation, nearest_after.separation) <= 0.0;
     const bool always = gap < range_ || passed_through;
-    double touching = most_touching(motion.touching, name, before);
+    double touching = most_touching(motion.touching, name);
     if (always || gap_after - touching < margin_) {
         const std::size_t known = found.contacts.size();
         touching = append(name, before, nearest, distance, after, motion.touching, found.contacts);
@@ -217,7 +207,7 @@ std::vector<PairName> CollisionSearch::missed_pairs(const Rods& rods, const Box&
         pair.axis_i = axis_i;
         pair.axis_j = axis_j;
         const double gap = pair_gap(pair);
-        if (gap >= most_touching(motion.touching, name, before) || is_contact(name, contacts)) return false;
+        if (gap >= most_touching(motion.touching, name) || is_contact(name, contacts)) return false;
         const NearestPoints nearest = nearest_points(before);
         Contacts points;
         return gap < append(name, before, nearest, norm(nearest.separation), pair, motion.touching, points);

@@ -14,10 +14,7 @@ namespace jostle {
 
 /// The gap below which two rods touch: above 0 with the time-step correction.
 struct Touching {
-    /// (N) Each rod's part; that of a pair is at most sqrt(part_i^2 + part_j^2) for parallel axes (2 part_i for a rod
-    /// and its own image), and that times `crossed` for crossed ones. In between its square is linear in cos^2.
-    std::span<const double> part;
-    double crossed = 1.0;
+    std::span<const double> part;  ///< (N) of two rods at most sqrt(part_i^2 + part_j^2); 2 part_i of one and its image
     std::function<double(const Contact&)> of;  ///< exactly
 };
 

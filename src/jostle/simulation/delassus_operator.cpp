@@ -1,7 +1,6 @@
 #include "jostle/simulation/delassus_operator.hpp"
 
 #include "jostle/parallel/parallel_for.hpp"
-#include "jostle/simulation/time_step_correction.hpp"
 
 namespace jostle {
 
@@ -28,15 +27,9 @@ double gap_mobility_of(const Contact& contact, const Rod& i, const Rod& j) {
     return point_mobility(i, contact.normal, contact.arm_i) + point_mobility(j, contact.normal, contact.arm_j);
 }
 
-double compliance_of(const Contact& contact, const Rods& rods) {
-    const double aspect_ratio =
-        (rods.length[contact.i] + rods.length[contact.j]) / (rods.diameter[contact.i] + rods.diameter[contact.j]);
-    return contact_compliance(aspect_ratio, dot(rods.axis[contact.i], rods.axis[contact.j]));
-}
-
 DelassusOperator::DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods, const Mobility& mobility,
-                                   ContactKind kind)
-    : contact_matrix_(contact_matrix), all_rods_(rods), mobility_(mobility), kind_(kind) {
+                                   double compliance)
+    : contact_matrix_(contact_matrix), all_rods_(rods), mobility_(mobility), compliance_(compliance) {
     extend();
 }
 
@@ -49,13 +42,10 @@ void DelassusOperator::extend() {
         rods_[place] = {all_rods_.axis[rows[place]], mobility_.of_rod(rows[place])};
     });
     diagonal_.resize(contact_matrix_.size());
-    if (compliant()) compliance_.resize(contact_matrix_.size());
     parallel_for(diagonal_.size() - known_contacts, [&](std::size_t k) {
         const std::size_t l = known_contacts + k;
         const auto [i, j] = contact_matrix_.ends()[l];
-        const Contact& contact = contact_matrix_.contacts().contact[l];
-        if (compliant()) compliance_[l] = compliance_of(contact, all_rods_);
-        diagonal_[l] = (1.0 + compliance(l)) * gap_mobility_of(contact, rods_[i], rods_[j]);
+        diagonal_[l] = (1.0 + compliance_) * gap_mobility_of(contact_matrix_.contacts().contact[l], rods_[i], rods_[j]);
     });
 }
 
@@ -70,7 +60,7 @@ void DelassusOperator::rates(std::span<const ContactVelocity> velocities, std::s
                              std::span<double> rates) const {
     contact_matrix_.apply_transpose(velocities, rates);
     if (!compliant()) return;
-    parallel_for(rates.size(), [&](std::size_t l) { rates[l] += compliance_[l] * gap_mobility(l) * gamma[l]; });
+    parallel_for(rates.size(), [&](std::size_t l) { rates[l] += compliance(l) * gamma[l]; });
 }
 
 void DelassusOperator::velocities(std::span<const double> gamma, std::span<ContactForce> forces,

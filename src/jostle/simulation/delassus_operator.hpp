@@ -8,14 +8,12 @@ namespace jostle {
 
 /// A = D^T M D (theory, eq. 2.4): gap velocities caused by contact forces. The place where contact and mobility meet.
 ///
-/// With compliant contacts it is D^T M D + diag(kappa_l (D^T M D)_ll) (theory, eq. 3.5): positive definite. Never
-/// formed: one application is a gather over the rods that have contacts, the mobility, and a pass over contacts. Holds
-/// references.
+/// With a compliance kappa it is D^T M D + kappa diag(D^T M D) (theory, eq. 3.5): positive definite. Never formed: one
+/// application is a gather over the rods that have contacts, the mobility, and a pass over contacts. Holds references.
 class DelassusOperator final : public LinearOperator {
 public:
-    enum class ContactKind { hard, compliant };
     DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods, const Mobility& mobility,
-                     ContactKind kind = ContactKind::hard);
+                     double compliance = 0.0);
 
     /// Takes in what the contact matrix has been extended by.
     void extend();
@@ -26,11 +24,11 @@ public:
     /// A_ll of each rod's own mobility (for a mobility that couples rods, the local part of it), compliance included.
     std::span<const double> diagonal() const override { return diagonal_; }
 
-    bool compliant() const { return kind_ == ContactKind::compliant; }
-    /// kappa_l
-    double compliance(std::size_t l) const { return compliance_.empty() ? 0.0 : compliance_[l]; }
     /// (D^T M D)_ll: how fast a force on contact l alone opens its gap.
-    double gap_mobility(std::size_t l) const { return diagonal_[l] / (1.0 + compliance(l)); }
+    double gap_mobility(std::size_t l) const { return diagonal_[l] / (1.0 + compliance_); }
+    /// kappa (D^T M D)_ll
+    double compliance(std::size_t l) const { return compliance_ * gap_mobility(l); }
+    bool compliant() const { return compliance_ > 0.0; }
 
     const ContactMatrix& contact_matrix() const { return contact_matrix_; }
 
@@ -56,19 +54,15 @@ private:
     const ContactMatrix& contact_matrix_;
     const Rods& all_rods_;
     const Mobility& mobility_;
-    ContactKind kind_;
+    double compliance_;
     std::vector<Rod> rods_;
     std::vector<double> diagonal_;
-    std::vector<double> compliance_;                   ///< empty for hard contacts
     mutable std::vector<ContactForce> forces_;         ///< (places) scratch
     mutable std::vector<ContactVelocity> velocities_;  ///< (places) scratch
 };
 
 /// (D^T M D)_ll of a contact between these two rods.
 double gap_mobility_of(const Contact& contact, const DelassusOperator::Rod& i, const DelassusOperator::Rod& j);
-
-/// kappa of a contact (theory, eq. 3.5b).
-double compliance_of(const Contact& contact, const Rods& rods);
 
 /// The answer of one rod that feels its own drag only: U = [parallel n n + perpendicular (I - n n)] F, and W = Omega x
 /// n = rotational (I - n n) lever.

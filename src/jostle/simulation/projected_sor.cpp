@@ -349,7 +349,7 @@ private:
         point.answer_j = answer(j, column.j);
         point.b = static_cast<PointReal>(b_[l]);
         point.gamma = static_cast<PointReal>(start_[l]);
-        point.compliance = static_cast<PointReal>(matrix_.compliance(l) * matrix_.gap_mobility(l));
+        point.compliance = static_cast<PointReal>(matrix_.compliance(l));
         point.diagonal = static_cast<PointReal>(diagonal);
         point.inverse_diagonal = static_cast<PointReal>(diagonal > 0.0 ? 1.0 / diagonal : 0.0);
         point.i = i;

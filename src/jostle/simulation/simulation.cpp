@@ -78,17 +78,11 @@ void Simulation::find_mobilities() {
     mobility_->update(rods_);
     largest_shift_.assign(rods_.size(), 0.0);
     if (!settings_.brownian_correction) return;
-    // The compliance grows with L/D, and no pair's L/D is above the larger of its two rods'.
-    const double slenderest =
-        parallel_max(rods_.size(), 0.0, [&](std::size_t i) { return rods_.length[i] / rods_.diameter[i]; });
-    const double kappa = contact_compliance(slenderest, 1.0);
-    shift_of_crossed_ = discrete_watching(contact_compliance(slenderest, 0.0)) / discrete_watching(kappa);
     parallel_for(rods_.size(), [&](std::size_t i) {
         const RodMobility rod = mobility_->of_rod(i);
         const double half = 0.5 * rods_.length[i];
         const double largest = std::max(rod.parallel, rod.perpendicular) + half * half * rod.rotational;
-        // s^2 lies above its chord in cos^2 by less than 1.4 %.
-        largest_shift_[i] = 1.007 * brownian_shift(settings_.kT, settings_.time_step, largest, kappa);
+        largest_shift_[i] = brownian_shift(settings_.kT, settings_.time_step, largest);
     });
 }
 
@@ -96,7 +90,7 @@ RodMotion Simulation::motion() const {
     const auto shift = [this](const Contact& contact) {
         return settings_.brownian_correction ? shift_of(contact) : 0.0;
     };
-    return {moved_.centre, moved_.axis, displacement_, {largest_shift_, shift_of_crossed_, shift}};
+    return {moved_.centre, moved_.axis, displacement_, {largest_shift_, shift}};
 }
 
 /// Every so many steps, a function of the state alone: a run that was stopped goes on with the same rows.

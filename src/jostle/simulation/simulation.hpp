@@ -107,7 +107,6 @@ private:
 
     CollisionSearch search_;
     std::vector<double> largest_shift_;  ///< (N) each rod's part in the shift of a gap, at most
-    double shift_of_crossed_ = 1.0;      ///< at most, relative to that of parallel rods
     Velocities known_;                   ///< (N) U_known
     Velocities by_springs_;              ///< (N) the springs' part of it; (0) without springs
     std::vector<double> displacement_;   ///< (N) by it, of any point of the rod, at most

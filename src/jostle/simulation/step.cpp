@@ -84,8 +84,7 @@ double Simulation::shift_of(const Contact& contact) const {
     const auto rod = [this](std::uint32_t row) {
         return DelassusOperator::Rod{rods_.axis[row], mobility_->of_rod(row)};
     };
-    return brownian_shift(settings_.kT, settings_.time_step, gap_mobility_of(contact, rod(contact.i), rod(contact.j)),
-                          compliance_of(contact, rods_));
+    return brownian_shift(settings_.kT, settings_.time_step, gap_mobility_of(contact, rod(contact.i), rod(contact.j)));
 }
 
 // Theory 2.3: 0 <= A gamma + b  perp  gamma >= 0, with more contacts where forces turn out to bring rods together.
@@ -93,9 +92,8 @@ void Simulation::solve_contacts(StepReport& report) {
     using Include = ContactMatrix::Include;
     ContactMatrix contact_matrix(contacts_, rods_.size(),
                                  mobility_->couples_rods() ? Include::all_rods : Include::rods_with_contacts);
-    using ContactKind = DelassusOperator::ContactKind;
-    DelassusOperator matrix(contact_matrix, rods_, *mobility_,
-                            corrects_brownian_motion() ? ContactKind::compliant : ContactKind::hard);
+    const double compliance = corrects_brownian_motion() ? contact_compliance : 0.0;
+    DelassusOperator matrix(contact_matrix, rods_, *mobility_, compliance);
     std::vector<double> b;
     extend_gap_velocities(b);
     const auto add_missed = [&](const ContactSolution& solution, bool final) {

@@ -9,11 +9,8 @@ namespace jostle {
 // (theory, section 3; docs/decisions/0015-compliant-contacts.md).
 
 /// kappa: a contact with the force gamma leaves its gap kappa A_ll gamma dt below the shift. Any value is right for two
-/// rods alone if the shift belongs to it; this one makes up for rods that are held from several sides, the more the
-/// longer they are and the nearer to parallel. `aspect_ratio` is L/D, `cosine` that of the angle between the axes.
-inline double contact_compliance(double aspect_ratio, double cosine) {
-    return 0.25 * (1.0 + aspect_ratio * cosine * cosine);
-}
+/// rods alone if the shift belongs to it; this one makes up for rods that are held from several sides.
+inline constexpr double contact_compliance = 0.25;
 
 /// s(kappa): a Gaussian walk of variance sigma^2 a step, whose ends beyond a wall are brought back to within
 /// kappa/(1 + kappa) of their distance, is as continuous motion reflected at a wall displaced by s sigma. For kappa = 0
@@ -26,8 +23,8 @@ inline double discrete_watching(double kappa) {
 }
 
 /// The shift s(kappa) sqrt(2 kT dt A_ll) of a gap whose rods have the relative mobility A_ll along the normal.
-inline double brownian_shift(double kT, double time_step, double relative_mobility, double kappa) {
-    return discrete_watching(kappa) * std::sqrt(2.0 * kT * time_step * relative_mobility);
+inline double brownian_shift(double kT, double time_step, double relative_mobility) {
+    return discrete_watching(contact_compliance) * std::sqrt(2.0 * kT * time_step * relative_mobility);
 }
 
 }  // namespace jostle

@@ -47,7 +47,7 @@ struct Moves {
         }
     }
     RodMotion motion() const {
-        return {centre, axis, displacement, {touching_part, 0.8, [](const Contact&) { return touching; }}};
+        return {centre, axis, displacement, {touching_part, [](const Contact&) { return touching; }}};
     }
 };
 

@@ -67,26 +67,19 @@ WalkAtWall walk_at_wall(double kappa) {
 }  // namespace
 
 TEST_CASE("the shift vanishes without thermal motion") {
-    CHECK(brownian_shift(0.0, 0.1, 2.0, 0.25) == 0.0);
-    CHECK(brownian_shift(1.0, 0.5, 1.0, 0.25) == discrete_watching(0.25));
+    CHECK(brownian_shift(0.0, 0.1, 2.0) == 0.0);
+    CHECK(brownian_shift(1.0, 0.5, 1.0) == discrete_watching(contact_compliance));
 }
 
 TEST_CASE("the shift belongs to the compliance: as many walkers as at a wall of continuous motion") {
     // Without compliance: -zeta(1/2)/sqrt(2 pi).
     CHECK(walk_at_wall(0.0).excess == doctest::Approx(0.5825971579390107).epsilon(1e-7));
-    for (const double kappa : {0.25, 1.0, 4.0})
+    for (const double kappa : {contact_compliance, 1.0, 4.0})
         CHECK(walk_at_wall(kappa).excess == doctest::Approx(discrete_watching(kappa)).epsilon(5e-4));
 }
 
-TEST_CASE("spheres are the least compliant; rods the more the longer they are, and the nearer to parallel") {
-    CHECK(contact_compliance(0.0, 1.0) == contact_compliance(5.0, 0.0));
-    CHECK(contact_compliance(5.0, 0.5) == contact_compliance(5.0, -0.5));
-    CHECK(contact_compliance(5.0, 1.0) > contact_compliance(5.0, 0.5));
-    CHECK(contact_compliance(10.0, 0.5) > contact_compliance(5.0, 0.5));
-}
-
 TEST_CASE("with that shift forces act, in the mean, at touching, and the walls feel the ideal pressure") {
-    for (const double kappa : {0.0, 0.25, 1.0}) {
+    for (const double kappa : {0.0, contact_compliance, 1.0}) {
         const WalkAtWall walk = walk_at_wall(kappa);
         CHECK(walk.half_way == doctest::Approx(-walk.excess).epsilon(1e-7));
         CHECK(walk.mean_push == doctest::Approx(0.5).epsilon(1e-7));  // kT n, with sigma^2 = 2 kT dt mobility = 1
