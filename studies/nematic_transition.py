@@ -29,7 +29,7 @@ def runs(quick):
     return [Run(name=f"{start}_phi{phi:.2f}",
                 scene={"seed": 3, "box": {"volume_fraction": phi},
                        "rods": {"count": 300 if quick else 1000, "length": float(BETA), "start": start},
-                       "time": {"rms_step": RMS_STEP}, "contact": {"overlap_limit": 0.9},
+                       "time": {"rms_step": RMS_STEP}, "contact": {"overlap_limit": 0.5},
                        "solver": {"tolerance": 1e-4}, "output": {"stress_conventions": True, "trajectory_every": 500 if quick else 2000}},
                 equilibration=4000 if quick else 25000,
                 production=10000 if quick else 56000)

@@ -168,7 +168,7 @@ TEST_CASE("every key that means something is written, with its unit") {
                              "self_propulsion = 0.0  # kT D-2 mu-1\n",
                              "brownian_correction = true\n",
                              "range = \"auto\"  # D\n",
-                             "overlap_limit = 0.5\n",
+                             "overlap_limit = 0.2\n",
                              "method = \"auto\"\n",
                              "step_rule = \"bb1\"\n",
                              "residual = \"length\"\n",
