@@ -18,7 +18,7 @@ double point_mobility(const Rod& rod, const Vec3& normal, double arm) {
 
 }  // namespace
 
-double gap_mobility_of(const Contact& contact, const Rod& i, const Rod& j) {
+double gap_mobility(const Contact& contact, const Rod& i, const Rod& j) {
     if (contact.i == contact.j) {  // own image: the centre stays, only turning opens the gap
         const double along = dot(contact.normal, i.axis);
         const double lever = contact.arm_j - contact.arm_i;
@@ -45,7 +45,7 @@ void DelassusOperator::extend() {
     parallel_for(diagonal_.size() - known_contacts, [&](std::size_t k) {
         const std::size_t l = known_contacts + k;
         const auto [i, j] = contact_matrix_.ends()[l];
-        diagonal_[l] = (1.0 + compliance_) * gap_mobility_of(contact_matrix_.contacts().contact[l], rods_[i], rods_[j]);
+        diagonal_[l] = (1.0 + compliance_) * gap_mobility(contact_matrix_.contacts().contact[l], rods_[i], rods_[j]);
     });
 }
 

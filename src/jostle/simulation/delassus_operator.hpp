@@ -24,10 +24,8 @@ public:
     /// A_ll of each rod's own mobility (for a mobility that couples rods, the local part of it), compliance included.
     std::span<const double> diagonal() const override { return diagonal_; }
 
-    /// (D^T M D)_ll: how fast a force on contact l alone opens its gap.
-    double gap_mobility(std::size_t l) const { return diagonal_[l] / (1.0 + compliance_); }
     /// kappa (D^T M D)_ll
-    double compliance(std::size_t l) const { return compliance_ * gap_mobility(l); }
+    double compliance(std::size_t l) const { return compliance_ * (diagonal_[l] / (1.0 + compliance_)); }
     bool compliant() const { return compliance_ > 0.0; }
 
     const ContactMatrix& contact_matrix() const { return contact_matrix_; }
@@ -61,8 +59,8 @@ private:
     mutable std::vector<ContactVelocity> velocities_;  ///< (places) scratch
 };
 
-/// (D^T M D)_ll of a contact between these two rods.
-double gap_mobility_of(const Contact& contact, const DelassusOperator::Rod& i, const DelassusOperator::Rod& j);
+/// (D^T M D)_ll of a contact between these two rods: how fast a force on it alone opens its gap.
+double gap_mobility(const Contact& contact, const DelassusOperator::Rod& i, const DelassusOperator::Rod& j);
 
 /// The answer of one rod that feels its own drag only: U = [parallel n n + perpendicular (I - n n)] F, and W = Omega x
 /// n = rotational (I - n n) lever.

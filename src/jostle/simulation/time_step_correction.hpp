@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 
 namespace jostle {
 
@@ -14,17 +13,13 @@ inline constexpr double contact_compliance = 0.25;
 
 /// s(kappa): a Gaussian walk of variance sigma^2 a step, whose ends beyond a wall are brought back to within
 /// kappa/(1 + kappa) of their distance, is as continuous motion reflected at a wall displaced by s sigma. For kappa = 0
-/// that is -zeta(1/2)/sqrt(2 pi) = 0.5826 (Chernoff 1965; Siegmund 1979); for large kappa, sqrt(pi (1 + 2 kappa)/8) of
-/// a harmonic wall. This runs from the one to the other, within 5e-4 of s at every kappa
-/// (tests/unit/simulation/test_time_step_correction.cpp solves for s).
-inline double discrete_watching(double kappa) {
-    constexpr double hard = 0.5825971579390107, harmonic = std::numbers::pi / 8.0;
-    return std::sqrt(harmonic * (1.0 + 2.0 * kappa) - (harmonic - hard * hard) / (1.0 + 0.84 * kappa));
-}
+/// that is -zeta(1/2)/sqrt(2 pi) = 0.5826 (Chernoff 1965; Siegmund 1979).
+/// tests/unit/simulation/test_time_step_correction.cpp solves for it.
+inline constexpr double discrete_watching = 0.7380301893698;
 
 /// The shift s(kappa) sqrt(2 kT dt A_ll) of a gap whose rods have the relative mobility A_ll along the normal.
 inline double brownian_shift(double kT, double time_step, double relative_mobility) {
-    return discrete_watching(contact_compliance) * std::sqrt(2.0 * kT * time_step * relative_mobility);
+    return discrete_watching * std::sqrt(2.0 * kT * time_step * relative_mobility);
 }
 
 }  // namespace jostle
