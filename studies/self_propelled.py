@@ -39,8 +39,8 @@ def runs(quick):
                        "mobility": {"model": "slender_body"},
                        "motion": {"self_propulsion": speed * beta * rotational_diffusion(beta)},
                        "time": {"step": time_step(beta)}, "contact": {"overlap_limit": 0.9}},
-                # The time in which rods forget their direction: pairs that chase each other part in two fifths of it.
-                equilibration=math.ceil(0.5 / (rotational_diffusion(beta) * time_step(beta))),
+                # The collision pressure of swimmers is level after a fifth of the time in which rods forget their direction.
+                equilibration=math.ceil(0.3 / (rotational_diffusion(beta) * time_step(beta))),
                 production=AVERAGED * (5 if quick else 1))
             for beta, phi in SHAPES.items() for speed in SPEEDS]
 

@@ -63,16 +63,16 @@ double CollisionSearch::find(const Rods& rods, const Box& box, const RodMotion& 
     reach_.resize(rods.size());
     glance_.resize(rods.size());
     parallel_for(rods.size(), [&](std::size_t i) {
-        reach_[i] = std::max(motion.displacement[i] + motion.touching.part[i] + push_allowance_, 0.5 * range_);
+        reach_[i] = std::max(motion.displacement[i] + motion.touching.part[i] + motion.push_allowance, 0.5 * range_);
         glance_[i] = {rods.centre[i],
                       in_float(rods.axis[i]),
                       in_float(motion.centre[i] - rods.centre[i]),
                       in_float(motion.axis[i]),
                       static_cast<float>(0.5 * rods.length[i]),
                       static_cast<float>(0.5 * rods.diameter[i]),
-                      static_cast<float>(motion.touching.part[i] * motion.touching.part[i]),
-                      rods.image[i]};
+                      static_cast<float>(motion.touching.part[i] * motion.touching.part[i])};
     });
+    neighbours_.set_travel(motion.travel);
     neighbours_.update(rods, box, reach_);
     blocks_.resize(neighbours_.block_count());
     parallel_for_parts(blocks_.size(), [&](std::size_t block) { search_block(block, rods, box, motion); });
@@ -95,7 +95,7 @@ void CollisionSearch::search_block(std::size_t block, const Rods& rods, const Bo
     neighbours_.for_close_pairs(block, [&](std::size_t pair) {
         const std::uint32_t i = neighbours_.i(pair), j = neighbours_.j(pair);
         const RodGlance &a = glance_[i], &b = glance_[j];
-        const Image image = neighbours_.image_now(pair, a.image, b.image);
+        const Image image = neighbours_.image(pair);
         const auto between = in_float(b.centre + box.displacement(image) - a.centre);
         names[count] = {i, j, image};
         for (std::size_t k = 0; k < 3; ++k) {
@@ -223,8 +223,8 @@ std::vector<PairName> CollisionSearch::missed_pairs(const Rods& rods, const Box&
     std::vector<NeighbourList::Overreach> farther;
     if (thorough) {
         for (const std::uint32_t row : pushed)
-            if (pushes[row].farthest > push_allowance_)
-                farther.push_back({row, pushes[row].farthest - push_allowance_});
+            if (pushes[row].farthest > motion.push_allowance)
+                farther.push_back({row, pushes[row].farthest - motion.push_allowance});
     }
     if (!farther.empty()) {
         neighbours_.widen(rods, box, reach_, farther);
@@ -233,7 +233,7 @@ std::vector<PairName> CollisionSearch::missed_pairs(const Rods& rods, const Box&
             neighbours_.for_close_pairs(block, [&](std::size_t pair) {
                 if (neighbours_.was_close(pair)) return;
                 const std::uint32_t i = neighbours_.i(pair), j = neighbours_.j(pair);
-                const PairName name{i, j, neighbours_.image_now(pair, rods.image[i], rods.image[j])};
+                const PairName name{i, j, neighbours_.image(pair)};
                 if (missed(name)) found[block].push_back(name);
             });
         });

@@ -22,6 +22,8 @@ struct Touching {
 struct RodMotion {
     std::span<const Vec3> centre, axis;    ///< (N) after it; centres are not wrapped
     std::span<const double> displacement;  ///< (N) by the known motion, of any point of the rod, at most
+    double push_allowance;                 ///< rods that forces push farther have all their neighbours looked at
+    double travel;                         ///< of the neighbour list
     Touching touching;
 };
 
@@ -49,10 +51,8 @@ using RodAfter = std::function<std::pair<Vec3, Vec3>(std::uint32_t row)>;
 /// on the history of the list.
 class CollisionSearch {
 public:
-    /// `travel`: of the neighbour list; `margin`, `push_allowance`: lengths; `range`: contacts with a smaller gap are
-    /// always taken (0: those that overlap).
-    CollisionSearch(double travel, double margin, double push_allowance, double range)
-        : neighbours_(travel), margin_(margin), push_allowance_(push_allowance), range_(range) {}
+    /// `margin`: a length; `range`: contacts with a smaller gap are always taken (0: those that overlap).
+    CollisionSearch(double margin, double range) : neighbours_(0.0), margin_(margin), range_(range) {}
 
     /// The contacts of the step. Returns the largest overlap before the known motion, max(0, -gap).
     double find(const Rods& rods, const Box& box, const RodMotion& motion, Contacts& contacts);
@@ -76,7 +76,6 @@ private:
         Vec3 centre;
         std::array<float, 3> axis, moved, axis_after;
         float half_length, radius, squared_touching;
-        Image image;
     };
     struct Bystander {
         PairName name;
@@ -98,7 +97,7 @@ private:
     bool is_contact(const PairName& name, const Contacts& contacts) const;
 
     NeighbourList neighbours_;
-    double margin_, push_allowance_, range_;
+    double margin_, range_;
     std::vector<double> reach_;      ///< (N) displacement + touching + push allowance
     std::vector<RodGlance> glance_;  ///< (N)
     std::vector<Found> blocks_;

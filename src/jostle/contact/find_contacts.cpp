@@ -13,7 +13,7 @@ double find_contacts(const Rods& rods, const Box& box, const NeighbourList& neig
     std::vector<double> overlaps(blocks.size(), 0.0);
     const auto look_at = [&](std::size_t block, std::size_t pair) {
         const std::uint32_t i = neighbours.i(pair), j = neighbours.j(pair);
-        const Image image = neighbours.image_now(pair, rods.image[i], rods.image[j]);
+        const Image image = neighbours.image(pair);
         const PairGeometry geometry = pair_geometry(rods, i, j, box.displacement(image), rods.centre, rods.axis);
         const double range = reach[i] + reach[j];
         const NearestPoints nearest = nearest_points(geometry);

@@ -18,10 +18,12 @@ constexpr std::size_t cells_per_block = 16;
 /// is far below this; nearly parallel rods have the largest, some 3e-5.
 constexpr double float_error = 2e-4;
 
+using NarrowImage = std::array<std::int16_t, 3>;
+
 struct NewPair {
     std::uint32_t i, j;
     float gap;
-    std::array<std::int16_t, 3> image;
+    NarrowImage image;
 };
 
 /// Rods around a cell, images apart, in arrays for vector instructions.
@@ -69,7 +71,7 @@ bool is_positive(const Image& image) {
     return image > Image{0, 0, 0};
 }
 
-std::array<std::int16_t, 3> narrowed(const Image& image) {
+NarrowImage narrowed(const Image& image) {
     return {static_cast<std::int16_t>(image[0]), static_cast<std::int16_t>(image[1]),
             static_cast<std::int16_t>(image[2])};
 }
@@ -170,6 +172,7 @@ void NeighbourList::widen(const Rods& rods, const Box& box, std::span<const doub
 
 bool NeighbourList::refresh(const Rods& rods, const Box& box, std::span<const double> reach) {
     extent_.resize(rods.size());
+    crossed_.resize(rods.size());
     if (reference_.centre.size() == rods.size() && find_extents(rods, box, reach) <= 0.5 * skin_) return false;
     const double largest_reach = parallel_max(rods.size(), 0.0, [&](std::size_t i) { return reach[i]; });
     build(rods, box, 2.0 * (largest_reach + travel_));
@@ -181,10 +184,12 @@ bool NeighbourList::refresh(const Rods& rods, const Box& box, std::span<const do
 double NeighbourList::find_extents(const Rods& rods, const Box& box, std::span<const double> reach) {
     return parallel_max(rods.size(), 0.0, [&](std::size_t i) {
         Vec3 moved = rods.centre[i] - reference_.centre[i];
+        crossed_[i] = {};
         if (rods.image[i] != reference_.image[i]) {
             Image crossed;
             for (std::size_t k = 0; k < 3; ++k) crossed[k] = rods.image[i][k] - reference_.image[i][k];
             moved += box.displacement(crossed);
+            crossed_[i] = narrowed(crossed);
         }
         // A rod that was turned round is the same body: what counts is how far its points are from any of before.
         const Vec3 &axis = rods.axis[i], &before = reference_.axis[i];
@@ -216,6 +221,7 @@ void NeighbourList::build(const Rods& rods, const Box& box, double skin) {
         reference_.axis[i] = rods.axis[i];
         reference_.image[i] = rods.image[i];
         reference_.length[i] = rods.length[i];
+        crossed_[i] = {};
     });
     const double longest =
         parallel_max(rods.size(), 0.0, [&](std::size_t i) { return rods.length[i] + rods.diameter[i]; });
@@ -226,8 +232,11 @@ void NeighbourList::build(const Rods& rods, const Box& box, double skin) {
     std::vector<std::size_t> begin(rods.size() + 1, 0);
     parallel_for_blocks(cells.size(), cells_per_block, [&](std::size_t block, std::size_t first, std::size_t last) {
         thread_local Surroundings around;
-        for (std::size_t cell = first; cell < last; ++cell) builder.append_pairs_of(cell, around, blocks[block]);
-        for (const NewPair& pair : blocks[block]) ++begin[pair.i + 1];  // a rod is in one cell only
+        thread_local std::vector<NewPair> pairs;
+        pairs.clear();
+        for (std::size_t cell = first; cell < last; ++cell) builder.append_pairs_of(cell, around, pairs);
+        for (const NewPair& pair : pairs) ++begin[pair.i + 1];  // a rod is in one cell only
+        blocks[block] = pairs;                                  // no larger than need be
     });
     for (std::size_t i = 0; i < rods.size(); ++i) begin[i + 1] += begin[i];
     const std::size_t count = begin[rods.size()];
@@ -241,8 +250,7 @@ void NeighbourList::build(const Rods& rods, const Box& box, double skin) {
             i_[place] = pair.i;
             j_[place] = pair.j;
             gap_[place] = pair.gap;
-            for (std::size_t k = 0; k < 3; ++k)
-                image_[place][k] = pair.image[k] + rods.image[pair.i][k] - rods.image[pair.j][k];
+            image_[place] = pair.image;
         }
     });
 }

@@ -22,6 +22,7 @@ class NeighbourList {
 public:
     /// `travel`: how far a rod may go, beside its reach, before the list is built again (a length).
     explicit NeighbourList(double travel) : travel_(travel) {}
+    void set_travel(double travel) { travel_ = travel; }
 
     /// Builds anew if need be; returns whether it did. `reach`: (N), lengths.
     bool update(const Rods& rods, const Box& box, std::span<const double> reach) {
@@ -48,13 +49,12 @@ public:
     std::uint32_t i(std::size_t pair) const { return i_[pair]; }
     std::uint32_t j(std::size_t pair) const { return j_[pair]; }
 
-    /// The image shift of a pair now: rods that have crossed a periodic face since building are accounted for.
-    /// `image_i`, `image_j`: those of the two rods now.
-    Image image_now(std::size_t pair, const Image& image_i, const Image& image_j) const {
-        Image image;
-        const PairImage& now_less_rods = image_[pair];
-        for (std::size_t k = 0; k < 3; ++k) image[k] = now_less_rods[k] + image_j[k] - image_i[k];
-        return image;
+    /// The image shift of a pair at the last update: rods that have crossed a periodic face since building are
+    /// accounted for.
+    Image image(std::size_t pair) const {
+        Image now;
+        for (std::size_t k = 0; k < 3; ++k) now[k] = image_[pair][k] + crossed_[j_[pair]][k] - crossed_[i_[pair]][k];
+        return now;
     }
 
     static constexpr std::size_t block_size = 512;
@@ -82,7 +82,7 @@ public:
     }
 
 private:
-    using PairImage = std::array<std::int32_t, 3>;
+    using NarrowImage = std::array<std::int16_t, 3>;  ///< there are many
 
     bool refresh(const Rods& rods, const Box& box, std::span<const double> reach);
     double find_extents(const Rods& rods, const Box& box, std::span<const double> reach);
@@ -99,7 +99,8 @@ private:
     } reference_;  ///< (N) the rods when the list was built
     std::vector<std::uint32_t> i_, j_;
     std::vector<float> gap_;            ///< when the list was built, rounded down
-    std::vector<PairImage> image_;      ///< when the list was built, plus image of i, less image of j
+    std::vector<NarrowImage> image_;    ///< when the list was built
+    std::vector<NarrowImage> crossed_;  ///< (N) box edges that a rod has crossed since
     std::vector<float> extent_;         ///< (N) d_i + reach_i at the last update, rounded up
     std::vector<float> extent_within_;  ///< (N) before the list was widened, or none
     bool built_while_widened_ = false;

@@ -1,6 +1,7 @@
 #include "jostle/simulation/simulation.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/parallel/parallel_for.hpp"
@@ -11,23 +12,21 @@ namespace jostle {
 
 namespace {
 
-// In mean diameters (docs/performance.md says how they were chosen; they change speed, not results).
-constexpr double travel_per_diameter = 0.5, travel_per_length = 0.13;
-constexpr double push_allowance = 0.2;  ///< of a rod by others, before all neighbours are looked at again
+// They change speed, not results; docs/performance.md says how they were chosen. Lengths are in mean diameters.
 
-/// A pair whose gap after the known motion is wider than touching by this much (in D) is only watched.
+/// A pair whose gap after the known motion is wider than touching by this much is only watched.
 constexpr double margin = 0.02;
+/// How far rods go before the neighbour list is built again: this at the default step, less at shorter ones (the
+/// shorter the step, the less often lists are built).
+constexpr double travel_per_diameter = 0.5, travel_per_length = 0.13, displacement_at_default_step = 0.07;
+/// How far rods may be pushed by others before all their neighbours are looked at: at most so far, and so many mean
+/// Brownian displacements, for these bring rods together. Without noise pushes add up through crowds.
+constexpr double most_push_allowance = 0.2, push_per_displacement = 3.0;
 
 double mean_of(const std::vector<double>& values) {
     if (values.empty()) return 1.0;
     return parallel_sum<double>(values.size(), [&](std::size_t i) { return values[i]; }) /
            static_cast<double>(values.size());
-}
-
-CollisionSearch make_search(const Rods& rods, double range) {
-    const double diameter = mean_of(rods.diameter), length = mean_of(rods.length);
-    return {travel_per_diameter * diameter + travel_per_length * length, margin * diameter, push_allowance * diameter,
-            range};
 }
 
 }  // namespace
@@ -40,7 +39,7 @@ Simulation::Simulation(Box box, Rods rods, Clock clock, std::unique_ptr<Mobility
       mobility_(std::move(mobility)),
       motions_(std::move(motions)),
       settings_(settings),
-      search_(make_search(rods_, settings.range)) {
+      search_(margin * mean_of(rods_.diameter), settings.range) {
     if (!(settings_.time_step > 0.0))
         throw InputError({.key = "time.step",
                           .value = std::to_string(settings_.time_step),
@@ -74,6 +73,16 @@ void Simulation::take_over_rods() {
     find_mobilities();
 }
 
+void Simulation::find_allowances() {
+    const double diameter = mean_of(rods_.diameter);
+    push_allowance_ = most_push_allowance * diameter;
+    travel_ = travel_per_diameter * diameter + travel_per_length * mean_of(rods_.length);
+    if (settings_.kT == 0.0) return;
+    const double displacement = mean_of(displacement_);
+    push_allowance_ = std::min(push_allowance_, push_per_displacement * displacement);
+    travel_ *= std::min(1.0, std::pow(displacement / (displacement_at_default_step * diameter), 2.0 / 3.0));
+}
+
 void Simulation::find_mobilities() {
     mobility_->update(rods_);
     largest_shift_.assign(rods_.size(), 0.0);
@@ -90,7 +99,7 @@ RodMotion Simulation::motion() const {
     const auto shift = [this](const Contact& contact) {
         return settings_.brownian_correction ? shift_of(contact) : 0.0;
     };
-    return {moved_.centre, moved_.axis, displacement_, {largest_shift_, shift}};
+    return {moved_.centre, moved_.axis, displacement_, push_allowance_, travel_, {largest_shift_, shift}};
 }
 
 /// Every so many steps, a function of the state alone: a run that was stopped goes on with the same rows.

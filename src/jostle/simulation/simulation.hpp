@@ -85,6 +85,7 @@ private:
 
     void take_over_rods();
     void find_mobilities();
+    void find_allowances();
     RodMotion motion() const;
     double shift_of(const Contact& contact) const;
     void extend_gap_velocities(std::vector<double>& b) const;
@@ -106,10 +107,11 @@ private:
     std::vector<std::uint64_t> ids_before_;  ///< (N) of the rows in the last step, where cells may have died since
 
     CollisionSearch search_;
-    std::vector<double> largest_shift_;  ///< (N) each rod's part in the shift of a gap, at most
-    Velocities known_;                   ///< (N) U_known
-    Velocities by_springs_;              ///< (N) the springs' part of it; (0) without springs
-    std::vector<double> displacement_;   ///< (N) by it, of any point of the rod, at most
+    std::vector<double> largest_shift_;           ///< (N) each rod's part in the shift of a gap, at most
+    Velocities known_;                            ///< (N) U_known
+    Velocities by_springs_;                       ///< (N) the springs' part of it; (0) without springs
+    std::vector<double> displacement_;            ///< (N) by it, of any point of the rod, at most
+    double push_allowance_ = 0.0, travel_ = 0.0;  ///< of this step (RodMotion)
     struct {
         std::vector<Vec3> centre, axis;
     } moved_;                   ///< (N) the rods after the known motion

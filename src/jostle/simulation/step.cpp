@@ -71,6 +71,7 @@ void Simulation::find_known_velocity() {
         displacement_[i] = farthest_displacement(moved_.centre[i] - rods_.centre[i], moved_.axis[i] - rods_.axis[i],
                                                  0.5 * rods_.length[i]);
     });
+    find_allowances();
 }
 
 // Theory 2.2: all pairs of points that may touch in this step.

@@ -12,7 +12,7 @@ using namespace jostle::test;
 
 namespace {
 
-constexpr double margin = 0.02, allowance = 0.05, touching = 0.02;
+constexpr double margin = 0.02, allowance = 0.05, touching = 0.02, travel = 0.3;
 
 /// Random motions and pushes of some rods.
 struct Moves {
@@ -47,7 +47,8 @@ struct Moves {
         }
     }
     RodMotion motion() const {
-        return {centre, axis, displacement, {touching_part, [](const Contact&) { return touching; }}};
+        return {centre,    axis,   displacement,
+                allowance, travel, {touching_part, [](const Contact&) { return touching; }}};
     }
 };
 
@@ -96,7 +97,7 @@ TEST_CASE("contacts, and the pairs missed: against brute force, in any box, with
     for (const Case& test : cases) {
         CAPTURE(test.name);
         const Rods rods = thrown(test.count, test.box, test.length, 1.0, engine);
-        CollisionSearch search(0.3, margin, allowance, 0.0);
+        CollisionSearch search(margin, 0.0);
         for (int step = 0; step < 6; ++step) {
             const Moves moves(rods, test.known, test.push, engine);
             Contacts contacts;
@@ -141,7 +142,7 @@ TEST_CASE("with a range, all pairs with a smaller gap are contacts") {
     const Box box{{12, 12, 12}, {true, true, true}};
     const Rods rods = thrown(60, box, 5.0, 1.0, engine);
     const Moves moves(rods, 0.02, 0.0, engine);
-    CollisionSearch search(0.3, margin, allowance, 0.5);
+    CollisionSearch search(margin, 0.5);
     Contacts contacts;
     search.find(rods, box, moves.motion(), contacts);
     const auto found = names(contacts);
