@@ -1,4 +1,5 @@
-// The parts that a step spends its time in, each alone on one thread; each_takes is the time per item.
+// The parts that a step spends its time in, each alone on one thread; each_takes is the time per item. Beside them the
+// speed of the memory, which bounds them all.
 
 #include <benchmark/benchmark.h>
 
@@ -64,8 +65,29 @@ void distance_of_segments(benchmark::State& state) {
     count_items(state, pairs.size());
 }
 
-void application_of_matrix(benchmark::State& state, const Crowd& crowd) {
-    const auto simulation_held = settled(crowd);
+/// a = b + 3 c (the triad of McCalpin's STREAM), in arrays far larger than any cache. Items are the bytes that it reads
+/// and writes; that a is read before it is written over is not counted.
+void memory(benchmark::State& state) {
+    constexpr std::size_t count = std::size_t{1} << 25;
+    std::vector<double> a(count, 0.0), b(count, 1.0), c(count, 2.0);
+    for (auto unused : state) {
+        for (std::size_t k = 0; k < count; ++k) a[k] = b[k] + 3.0 * c[k];
+        benchmark::DoNotOptimize(a.data());
+        benchmark::ClobberMemory();
+    }
+    count_items(state, 3 * count * sizeof(double));
+}
+
+/// What an application of A has to read and write at least, a contact: each contact and gamma twice (D and D^T), its
+/// places, its rate; and its share of the rods' mobilities, forces and velocities.
+double bytes_of_application(const ContactMatrix& contact_matrix) {
+    const double contacts = 2 * (sizeof(Contact) + sizeof(ContactMatrix::Ends)) + 2 * sizeof(double);
+    const double place = sizeof(DelassusOperator::Rod) + 2 * sizeof(ContactForce) + 2 * sizeof(ContactVelocity);
+    return contacts + place * static_cast<double>(contact_matrix.rods().size()) / static_cast<double>(contact_matrix.size());
+}
+
+void application_of_matrix(benchmark::State& state, const Crowd& crowd, std::size_t bodies) {
+    const auto simulation_held = settled(crowd, bodies);
     const Simulation& simulation = *simulation_held;
     const Found found(simulation);
     const ContactMatrix contact_matrix(found.contacts, found.rods.size());
@@ -76,6 +98,7 @@ void application_of_matrix(benchmark::State& state, const Crowd& crowd) {
         benchmark::DoNotOptimize(rates.data());
     }
     count_items(state, matrix.size());
+    state.counters["bytes_each"] = bytes_of_application(contact_matrix);
 }
 
 void build_neighbour_list(benchmark::State& state, const Crowd& crowd) {
@@ -119,10 +142,13 @@ void brownian_noise(benchmark::State& state, const Crowd& crowd) {
 int main(int count, char** words) {
     benchmark::Initialize(&count, words);
     if (benchmark::ReportUnrecognizedArguments(count, words)) return 2;
+    benchmark::RegisterBenchmark("memory (bytes)", memory);
     benchmark::RegisterBenchmark("segment_distance (pairs)", distance_of_segments);
     for (const std::string name : {"rods/0.20", "rods/0.40"}) {
         const Crowd& crowd = crowd_named(name);
-        benchmark::RegisterBenchmark(("apply_A/" + name + " (contacts)").c_str(), application_of_matrix, crowd);
+        for (const std::size_t bodies : {std::size_t{2000}, std::size_t{200000}})
+            benchmark::RegisterBenchmark(("apply_A/" + name + "/" + std::to_string(bodies) + " (contacts)").c_str(),
+                                         application_of_matrix, crowd, bodies);
         benchmark::RegisterBenchmark(("build_neighbour_list/" + name + " (rods)").c_str(), build_neighbour_list, crowd);
         benchmark::RegisterBenchmark(("find_contacts/" + name + " (pairs)").c_str(), find_contacts_on_list, crowd);
     }

@@ -88,16 +88,15 @@ void CollisionSearch::search_block(std::size_t block, const Rods& rods, const Bo
     found.contacts.clear();
     found.bystanders.clear();
     found.overlap = 0.0;
-    std::array<PairName, Batch::size> names;
+    std::array<ListedPair, Batch::size> pairs;
     std::size_t count = 0;
     Batch batch;
     Batch::Row touching;
-    neighbours_.for_close_pairs(block, [&](std::size_t pair) {
-        const std::uint32_t i = neighbours_.i(pair), j = neighbours_.j(pair);
+    neighbours_.for_close_pairs(block, [&](std::uint32_t row, std::size_t pair) {
+        const auto& [i, j, image] = neighbours_.name(row, pair);
         const RodGlance &a = glance_[i], &b = glance_[j];
-        const Image image = neighbours_.image(pair);
         const auto between = in_float(b.centre + box.displacement(image) - a.centre);
-        names[count] = {i, j, image};
+        pairs[count] = {row, static_cast<std::uint32_t>(pair - block * NeighbourList::block_size)};
         for (std::size_t k = 0; k < 3; ++k) {
             batch.between[k][count] = between[k];
             batch.moved[k][count] = b.moved[k] - a.moved[k];
@@ -118,14 +117,20 @@ void CollisionSearch::search_block(std::size_t block, const Rods& rods, const Bo
         const float slack = batch.bound_after[k] - bound_error * size - touching[k];
         const bool clear = batch.gap[k] - gap_error * batch.radii[k] > static_cast<float>(range_);
         if (clear && slack >= static_cast<float>(margin_))
-            found.bystanders.push_back({names[k], slack, {batch.normal[0][k], batch.normal[1][k], batch.normal[2][k]}});
+            found.bystanders.push_back({pairs[k], slack, {batch.normal[0][k], batch.normal[1][k], batch.normal[2][k]}});
         else
-            look_closely(names[k], rods, box, motion, found);
+            look_closely(block, pairs[k], rods, box, motion);
     }
 }
 
-void CollisionSearch::look_closely(const PairName& name, const Rods& rods, const Box& box, const RodMotion& motion,
-                                   Found& found) const {
+PairName CollisionSearch::name_of(std::size_t block, const ListedPair& pair) const {
+    return neighbours_.name(pair.i, block * NeighbourList::block_size + pair.in_block);
+}
+
+void CollisionSearch::look_closely(std::size_t block, const ListedPair& pair, const Rods& rods, const Box& box,
+                                   const RodMotion& motion) {
+    Found& found = blocks_[block];
+    const PairName name = name_of(block, pair);
     const auto& [i, j, image] = name;
     const Vec3 displacement = box.displacement(image);
     const PairGeometry before = pair_geometry(rods, i, j, displacement, rods.centre, rods.axis);
@@ -146,7 +151,7 @@ void CollisionSearch::look_closely(const PairName& name, const Rods& rods, const
         found.contacts.resize(known);
     }
     const double slack = gap_after - touching - 1e-6 * after.radii;
-    found.bystanders.push_back({name, static_cast<float>(slack), in_float(nearest_after.separation / distance_after)});
+    found.bystanders.push_back({pair, static_cast<float>(slack), in_float(nearest_after.separation / distance_after)});
 }
 
 /// Appends the contacts of a pair, with their room. Returns the gap at which the first of them touches.
@@ -212,29 +217,35 @@ std::vector<PairName> CollisionSearch::missed_pairs(const Rods& rods, const Box&
         Contacts points;
         return gap < append(name, before, nearest, norm(nearest.separation), pair, motion.touching, points);
     };
+    // Whether a pair is near enough to be among the bystanders does not depend on the history of the list if neither rod
+    // is pushed beyond the allowance; the others wait for the thorough search.
+    const auto within_allowance = [&](std::uint32_t row) { return pushes[row].farthest <= motion.push_allowance; };
     std::vector<std::vector<PairName>> found(blocks_.size());
-    parallel_for_parts(blocks_.size(), [&](std::size_t block) {
-        for (const Bystander& bystander : blocks_[block].bystanders) {
-            const auto& name = bystander.name;
-            if (may_meet(bystander, pushes[name.i], pushes[name.j]) && missed(name)) found[block].push_back(name);
-        }
-    });
-    // Pairs that were passed over because no push was thought to go so far.
+    const auto look = [&](std::size_t block, const PairName& name) {
+        if (!thorough && !(within_allowance(name.i) && within_allowance(name.j))) return;
+        if (missed(name)) found[block].push_back(name);
+    };
+    if (!neighbours_.built_while_widened()) {
+        parallel_for_parts(blocks_.size(), [&](std::size_t block) {
+            for (const Bystander& bystander : blocks_[block].bystanders) {
+                const PairName name = name_of(block, bystander.pair);
+                if (may_meet(bystander, pushes[name.i], pushes[name.j])) look(block, name);
+            }
+        });
+    }
+    // Pairs that were passed over because no push was thought to go so far; and all, once the list is another one.
     std::vector<NeighbourList::Overreach> farther;
     if (thorough) {
         for (const std::uint32_t row : pushed)
-            if (pushes[row].farthest > motion.push_allowance)
+            if (!within_allowance(row))
                 farther.push_back({row, pushes[row].farthest - motion.push_allowance});
     }
-    if (!farther.empty()) {
-        neighbours_.widen(rods, box, reach_, farther);
+    if (!farther.empty()) neighbours_.widen(rods, box, reach_, farther);
+    if (!farther.empty() || neighbours_.built_while_widened()) {
         found.resize(std::max(found.size(), neighbours_.block_count()));
         parallel_for_parts(neighbours_.block_count(), [&](std::size_t block) {
-            neighbours_.for_close_pairs(block, [&](std::size_t pair) {
-                if (neighbours_.was_close(pair)) return;
-                const std::uint32_t i = neighbours_.i(pair), j = neighbours_.j(pair);
-                const PairName name{i, j, neighbours_.image(pair)};
-                if (missed(name)) found[block].push_back(name);
+            neighbours_.for_close_pairs(block, [&](std::uint32_t i, std::size_t pair) {
+                if (!neighbours_.was_close(i, pair)) look(block, neighbours_.name(i, pair));
             });
         });
     }

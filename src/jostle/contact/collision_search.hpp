@@ -58,7 +58,7 @@ public:
     double find(const Rods& rods, const Box& box, const RodMotion& motion, Contacts& contacts);
 
     /// The pairs that are none of `contacts` but touch in the end, in order. `pushed`: rows of the rods with a push;
-    /// `pushes`: (N). `thorough`: otherwise only bystanders are looked at.
+    /// `pushes`: (N). Unless `thorough`, only of rods that are pushed within the allowance.
     std::vector<PairName> missed_pairs(const Rods& rods, const Box& box, const RodMotion& motion,
                                        const Contacts& contacts, std::span<const std::uint32_t> pushed,
                                        std::span<const Push> pushes, const RodAfter& after, bool thorough);
@@ -77,8 +77,12 @@ private:
         std::array<float, 3> axis, moved, axis_after;
         float half_length, radius, squared_touching;
     };
+    /// A pair of the neighbour list, with its number in a block; good until the list is built again.
+    struct ListedPair {
+        std::uint32_t i, in_block;
+    };
     struct Bystander {
-        PairName name;
+        ListedPair pair;
         float slack;                  ///< how much wider than touching the gap is after the known motion, at least
         std::array<float, 3> normal;  ///< of a slab of that width between the rods
     };
@@ -88,8 +92,9 @@ private:
         double overlap = 0.0;
     };
 
-    void look_closely(const PairName& name, const Rods& rods, const Box& box, const RodMotion& motion,
-                      Found& found) const;
+    PairName name_of(std::size_t block, const ListedPair& pair) const;
+    void look_closely(std::size_t block, const ListedPair& pair, const Rods& rods, const Box& box,
+                      const RodMotion& motion);
     double append(const PairName& name, const PairGeometry& before, const NearestPoints& nearest, double distance,
                   const PairGeometry& after, const Touching& touching, Contacts& contacts) const;
     void search_block(std::size_t block, const Rods& rods, const Box& box, const RodMotion& motion);

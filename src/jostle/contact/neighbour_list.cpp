@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 
 #include "jostle/contact/cell_list.hpp"
@@ -20,10 +21,15 @@ constexpr double float_error = 2e-4;
 
 using NarrowImage = std::array<std::int16_t, 3>;
 
-struct NewPair {
-    std::uint32_t i, j;
-    float gap;
-    NarrowImage image;
+/// Pairs (i, j, image) of some rods i, one rod after the other.
+struct NewPairs {
+    struct Partner {
+        std::uint32_t j;
+        float gap;
+        NarrowImage image;
+    };
+    std::vector<std::uint32_t> i;
+    std::vector<Partner> partners;
 };
 
 /// Rods around a cell, images apart, in arrays for vector instructions.
@@ -86,15 +92,17 @@ public:
           error_(static_cast<float>(float_error * range)),
           skin_(static_cast<float>(skin) + error_) {}
 
-    /// Appends the pairs (i, j >= i, image) with a gap below the skin, of all i in a cell; in order for each i.
-    void append_pairs_of(std::size_t home, Surroundings& around, std::vector<NewPair>& pairs) const {
+    /// Appends the pairs (i, j >= i, image) with a gap below the skin, of all i in a cell; in order for each i. Fills in
+    /// how many there are of each.
+    void append_pairs_of(std::size_t home, Surroundings& around, NewPairs& pairs,
+                         std::vector<std::size_t>& count) const {
         const auto homes = cells_.rods_in(home);
         if (homes.empty()) return;
         const Vec3 origin = rods_.centre[homes.front()];
         gather(home, homes, origin, around);
         around.gap.resize(around.size());
         for (const std::uint32_t i : homes) {
-            const std::size_t first = pairs.size();
+            const std::size_t first = pairs.partners.size();
             const auto single = [](double value) { return static_cast<float>(value); };
             const Vec3 centre = rods_.centre[i] - origin, &axis = rods_.axis[i];
             find_gaps(around.size(), around.x.data(), around.y.data(), around.z.data(), around.axis_x.data(),
@@ -105,11 +113,12 @@ public:
             for (std::size_t k = 0; k < around.size(); ++k) {
                 const std::uint32_t j = around.row[k];
                 if (around.gap[k] >= skin_ || j < i || (j == i && !is_positive(around.image[k]))) continue;
-                pairs.push_back({i, j, around.gap[k] - error_, narrowed(around.image[k])});
+                pairs.partners.push_back({j, around.gap[k] - error_, narrowed(around.image[k])});
             }
-            std::sort(
-                pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end(),
-                [](const NewPair& a, const NewPair& b) { return std::tie(a.j, a.image) < std::tie(b.j, b.image); });
+            pairs.i.push_back(i);
+            count[i] = pairs.partners.size() - first;
+            std::sort(pairs.partners.begin() + static_cast<std::ptrdiff_t>(first), pairs.partners.end(),
+                      [](const auto& a, const auto& b) { return std::tie(a.j, a.image) < std::tie(b.j, b.image); });
         }
     }
 
@@ -205,9 +214,18 @@ void NeighbourList::set_extent(std::size_t i, double extent) {
     extent_[i] = static_cast<float>(extent * (1.0 + 1e-6));
 }
 
-void NeighbourList::find_closeness(std::size_t begin, std::size_t end, float* closeness) const {
-    extents_less_gaps(end - begin, i_.data() + begin, j_.data() + begin, gap_.data() + begin, extent_.data(),
-                      closeness);
+/// The rows that pairs belong to.
+void NeighbourList::find_rows(std::size_t begin, std::size_t end, std::uint32_t* i) const {
+    auto next = std::upper_bound(begin_.begin(), begin_.end(), begin);
+    for (std::size_t pair = begin; pair < end; ++next) {
+        const std::size_t last = std::min(*next, end);
+        i = std::fill_n(i, last - pair, static_cast<std::uint32_t>(next - begin_.begin() - 1));
+        pair = last;
+    }
+}
+
+void NeighbourList::find_closeness(std::size_t begin, std::size_t end, const std::uint32_t* i, float* closeness) const {
+    extents_less_gaps(end - begin, i, j_.data() + begin, gap_.data() + begin, extent_.data(), closeness);
 }
 
 void NeighbourList::build(const Rods& rods, const Box& box, double skin) {
@@ -228,29 +246,30 @@ void NeighbourList::build(const Rods& rods, const Box& box, double skin) {
     const double range = longest + skin;
     const CellList cells(rods, box, range);
     const Builder builder(rods, box, cells, range, skin);
-    std::vector<std::vector<NewPair>> blocks((cells.size() + cells_per_block - 1) / cells_per_block);
-    std::vector<std::size_t> begin(rods.size() + 1, 0);
+    std::vector<NewPairs> blocks((cells.size() + cells_per_block - 1) / cells_per_block);
+    begin_.assign(rods.size() + 1, 0);
     parallel_for_blocks(cells.size(), cells_per_block, [&](std::size_t block, std::size_t first, std::size_t last) {
         thread_local Surroundings around;
-        thread_local std::vector<NewPair> pairs;
-        pairs.clear();
-        for (std::size_t cell = first; cell < last; ++cell) builder.append_pairs_of(cell, around, pairs);
-        for (const NewPair& pair : pairs) ++begin[pair.i + 1];  // a rod is in one cell only
-        blocks[block] = pairs;                                  // no larger than need be
+        thread_local NewPairs pairs;
+        pairs.i.clear();
+        pairs.partners.clear();
+        for (std::size_t cell = first; cell < last; ++cell) builder.append_pairs_of(cell, around, pairs, begin_);
+        blocks[block] = pairs;  // no larger than need be
     });
-    for (std::size_t i = 0; i < rods.size(); ++i) begin[i + 1] += begin[i];
-    const std::size_t count = begin[rods.size()];
-    i_.resize(count);
+    std::exclusive_scan(begin_.begin(), begin_.end(), begin_.begin(), std::size_t{0});
+    const std::size_t count = begin_.back();
     j_.resize(count);
     gap_.resize(count);
     image_.resize(count);
     parallel_for_parts(blocks.size(), [&](std::size_t block) {
-        for (const NewPair& pair : blocks[block]) {
-            const std::size_t place = begin[pair.i]++;
-            i_[place] = pair.i;
-            j_[place] = pair.j;
-            gap_[place] = pair.gap;
-            image_[place] = pair.image;
+        const NewPairs& pairs = blocks[block];
+        auto partner = pairs.partners.begin();
+        for (const std::uint32_t i : pairs.i) {
+            for (std::size_t place = begin_[i]; place < begin_[i + 1]; ++place, ++partner) {
+                j_[place] = partner->j;
+                gap_[place] = partner->gap;
+                image_[place] = partner->image;
+            }
         }
     });
 }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "jostle/contact/pair_contacts.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/rods/box.hpp"
 #include "jostle/rods/rods.hpp"
@@ -44,41 +45,45 @@ public:
     /// Forces building at the next update (rods were added, removed or renumbered).
     void invalidate() { reference_.centre.clear(); }
 
-    /// Number of pairs, in the order of (i, j, image); i <= j.
-    std::size_t size() const { return i_.size(); }
-    std::uint32_t i(std::size_t pair) const { return i_[pair]; }
-    std::uint32_t j(std::size_t pair) const { return j_[pair]; }
+    /// Number of pairs, in the order of (i, j, image); i <= j. There are many, so the list holds no i: it is told with
+    /// the number of a pair.
+    std::size_t size() const { return j_.size(); }
 
-    /// The image shift of a pair at the last update: rods that have crossed a periodic face since building are
+    /// A pair of row i, in its image at the last update: rods that have crossed a periodic face since building are
     /// accounted for.
-    Image image(std::size_t pair) const {
-        Image now;
-        for (std::size_t k = 0; k < 3; ++k) now[k] = image_[pair][k] + crossed_[j_[pair]][k] - crossed_[i_[pair]][k];
+    PairName name(std::uint32_t i, std::size_t pair) const {
+        PairName now{i, j_[pair], {}};
+        for (std::size_t k = 0; k < 3; ++k) now.image[k] = image_[pair][k] + crossed_[now.j][k] - crossed_[i][k];
         return now;
     }
 
     static constexpr std::size_t block_size = 512;
     std::size_t block_count() const { return (size() + block_size - 1) / block_size; }
 
-    /// Calls found(pair) for the pairs of a block, in order, whose gap may be below the reaches given to the last
+    /// Calls found(i, pair) for the pairs of a block, in order, whose gap may be below the reaches given to the last
     /// update. Most pairs of the skin are passed over by what they were when the list was built.
     template <class Found>
     void for_close_pairs(std::size_t block, Found&& found) const {
         const std::size_t begin = block * block_size, end = std::min(begin + block_size, size());
+        std::array<std::uint32_t, block_size> i;
+        find_rows(begin, end, i.data());
         std::array<float, block_size> closeness;
-        find_closeness(begin, end, closeness.data());
+        find_closeness(begin, end, i.data(), closeness.data());
         std::array<std::uint32_t, block_size> close;  // without a jump: closeness is badly guessed
         std::size_t count = 0;
         for (std::size_t k = 0; k < end - begin; ++k) {
             close[count] = static_cast<std::uint32_t>(k);
             count += closeness[k] >= 0.0F ? 1 : 0;
         }
-        for (std::size_t k = 0; k < count; ++k) found(begin + close[k]);
+        for (std::size_t k = 0; k < count; ++k) found(i[close[k]], begin + close[k]);
     }
 
+    /// Whether widening has built the list anew, so that pairs have other numbers than after the last update.
+    bool built_while_widened() const { return built_while_widened_; }
+
     /// Whether for_close_pairs named the pair before the list was widened; no for all if it had to be built anew.
-    bool was_close(std::size_t pair) const {
-        return !built_while_widened_ && extent_within_[i_[pair]] + extent_within_[j_[pair]] - gap_[pair] >= 0.0F;
+    bool was_close(std::uint32_t i, std::size_t pair) const {
+        return !built_while_widened_ && extent_within_[i] + extent_within_[j_[pair]] - gap_[pair] >= 0.0F;
     }
 
 private:
@@ -88,7 +93,8 @@ private:
     double find_extents(const Rods& rods, const Box& box, std::span<const double> reach);
     void set_extent(std::size_t i, double extent);
     void build(const Rods& rods, const Box& box, double skin);
-    void find_closeness(std::size_t begin, std::size_t end, float* closeness) const;
+    void find_rows(std::size_t begin, std::size_t end, std::uint32_t* i) const;
+    void find_closeness(std::size_t begin, std::size_t end, const std::uint32_t* i, float* closeness) const;
 
     double travel_;
     double skin_ = 0.0;
@@ -97,7 +103,8 @@ private:
         std::vector<Image> image;
         std::vector<double> length;
     } reference_;  ///< (N) the rods when the list was built
-    std::vector<std::uint32_t> i_, j_;
+    std::vector<std::size_t> begin_;    ///< (N + 1) the first pair of each row
+    std::vector<std::uint32_t> j_;
     std::vector<float> gap_;            ///< when the list was built, rounded down
     std::vector<NarrowImage> image_;    ///< when the list was built
     std::vector<NarrowImage> crossed_;  ///< (N) box edges that a rod has crossed since

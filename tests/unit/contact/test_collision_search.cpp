@@ -148,3 +148,34 @@ TEST_CASE("with a range, all pairs with a smaller gap are contacts") {
     const auto found = names(contacts);
     for (const PairName& name : pairs_within(rods, box, rods.centre, rods.axis, 0.5)) CHECK(found.count(name) == 1);
 }
+
+TEST_CASE("what is found does not depend on when the neighbour list was built") {
+    std::mt19937_64 engine(31);
+    const Box box{{18, 18, 18}, {false, false, false}};
+    std::size_t early = 0, late = 0;
+    for (int sample = 0; sample < 50; ++sample) {
+        Rods rods = thrown(500, box, 5.0, 1.0, engine);
+        CollisionSearch old_search(margin, 0.0), new_search(margin, 0.0);
+        Contacts contacts, contacts_of_new;
+        const Moves before(rods, 0.04, 0.0, engine);
+        old_search.find(rods, box, before.motion(), contacts);
+        rods.centre = before.centre;
+        rods.axis = before.axis;
+        const Moves moves(rods, 0.03, 0.02, engine);  // half of them beyond the allowance
+        const auto after = [&](std::uint32_t row) { return std::pair{moves.end_centre[row], moves.end_axis[row]}; };
+        old_search.find(rods, box, moves.motion(), contacts);
+        new_search.find(rods, box, moves.motion(), contacts_of_new);
+        CHECK(names(contacts) == names(contacts_of_new));
+        for (const bool thorough : {false, true, false}) {
+            const auto missed = [&](CollisionSearch& search) {
+                return search.missed_pairs(rods, box, moves.motion(), contacts, moves.pushed, moves.pushes, after,
+                                           thorough);
+            };
+            const auto found = missed(old_search);
+            CHECK(found == missed(new_search));
+            (thorough ? late : early) += found.size();
+        }
+    }
+    CHECK(early > 10);
+    CHECK(late > early / 2);
+}
