@@ -83,7 +83,8 @@ void memory(benchmark::State& state) {
 double bytes_of_application(const ContactMatrix& contact_matrix) {
     const double contacts = 2 * (sizeof(Contact) + sizeof(ContactMatrix::Ends)) + 2 * sizeof(double);
     const double place = sizeof(DelassusOperator::Rod) + 2 * sizeof(ContactForce) + 2 * sizeof(ContactVelocity);
-    return contacts + place * static_cast<double>(contact_matrix.rods().size()) / static_cast<double>(contact_matrix.size());
+    return contacts +
+           place * static_cast<double>(contact_matrix.rods().size()) / static_cast<double>(contact_matrix.size());
 }
 
 void application_of_matrix(benchmark::State& state, const Crowd& crowd, std::size_t bodies) {

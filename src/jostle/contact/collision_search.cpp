@@ -217,8 +217,8 @@ std::vector<PairName> CollisionSearch::missed_pairs(const Rods& rods, const Box&
         Contacts points;
         return gap < append(name, before, nearest, norm(nearest.separation), pair, motion.touching, points);
     };
-    // Whether a pair is near enough to be among the bystanders does not depend on the history of the list if neither rod
-    // is pushed beyond the allowance; the others wait for the thorough search.
+    // Whether a pair is near enough to be among the bystanders does not depend on the history of the list if neither
+    // rod is pushed beyond the allowance; the others wait for the thorough search.
     const auto within_allowance = [&](std::uint32_t row) { return pushes[row].farthest <= motion.push_allowance; };
     std::vector<std::vector<PairName>> found(blocks_.size());
     const auto look = [&](std::size_t block, const PairName& name) {
@@ -237,8 +237,7 @@ std::vector<PairName> CollisionSearch::missed_pairs(const Rods& rods, const Box&
     std::vector<NeighbourList::Overreach> farther;
     if (thorough) {
         for (const std::uint32_t row : pushed)
-            if (!within_allowance(row))
-                farther.push_back({row, pushes[row].farthest - motion.push_allowance});
+            if (!within_allowance(row)) farther.push_back({row, pushes[row].farthest - motion.push_allowance});
     }
     if (!farther.empty()) neighbours_.widen(rods, box, reach_, farther);
     if (!farther.empty() || neighbours_.built_while_widened()) {

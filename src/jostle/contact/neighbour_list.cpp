@@ -92,8 +92,8 @@ public:
           error_(static_cast<float>(float_error * range)),
           skin_(static_cast<float>(skin) + error_) {}
 
-    /// Appends the pairs (i, j >= i, image) with a gap below the skin, of all i in a cell; in order for each i. Fills in
-    /// how many there are of each.
+    /// Appends the pairs (i, j >= i, image) with a gap below the skin, of all i in a cell; in order for each i. Fills
+    /// in how many there are of each.
     void append_pairs_of(std::size_t home, Surroundings& around, NewPairs& pairs,
                          std::vector<std::size_t>& count) const {
         const auto homes = cells_.rods_in(home);

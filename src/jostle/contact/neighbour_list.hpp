@@ -102,8 +102,8 @@ private:
         std::vector<Vec3> centre, axis;
         std::vector<Image> image;
         std::vector<double> length;
-    } reference_;  ///< (N) the rods when the list was built
-    std::vector<std::size_t> begin_;    ///< (N + 1) the first pair of each row
+    } reference_;                     ///< (N) the rods when the list was built
+    std::vector<std::size_t> begin_;  ///< (N + 1) the first pair of each row
     std::vector<std::uint32_t> j_;
     std::vector<float> gap_;            ///< when the list was built, rounded down
     std::vector<NarrowImage> image_;    ///< when the list was built
