@@ -19,7 +19,7 @@ constexpr std::size_t cells_per_block = 16;
 /// is far below this; nearly parallel rods have the largest, some 3e-5.
 constexpr double float_error = 2e-4;
 
-using NarrowImage = std::array<std::int16_t, 3>;
+using NarrowImage = NeighbourList::NarrowImage;
 
 /// Pairs (i, j, image) of some rods i, one rod after the other.
 struct NewPairs {

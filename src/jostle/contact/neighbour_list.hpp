@@ -21,6 +21,8 @@ namespace jostle {
 /// suffice as long as d_i + reach_i <= skin/2 for all i.
 class NeighbourList {
 public:
+    using NarrowImage = std::array<std::int16_t, 3>;  ///< an image in few bytes: there are many
+
     /// `travel`: how far a rod may go, beside its reach, before the list is built again (a length).
     explicit NeighbourList(double travel) : travel_(travel) {}
     void set_travel(double travel) { travel_ = travel; }
@@ -87,8 +89,6 @@ public:
     }
 
 private:
-    using NarrowImage = std::array<std::int16_t, 3>;  ///< there are many
-
     bool refresh(const Rods& rods, const Box& box, std::span<const double> reach);
     double find_extents(const Rods& rods, const Box& box, std::span<const double> reach);
     void set_extent(std::size_t i, double extent);

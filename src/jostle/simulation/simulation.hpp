@@ -84,7 +84,7 @@ private:
     void grow();
 
     void take_over_rods();
-    void find_mobilities();
+    void find_sizes();
     void find_allowances();
     RodMotion motion() const;
     double shift_of(const Contact& contact) const;
@@ -107,6 +107,7 @@ private:
     std::vector<std::uint64_t> ids_before_;  ///< (N) of the rows in the last step, where cells may have died since
 
     CollisionSearch search_;
+    double mean_diameter_ = 0.0, mean_length_ = 0.0;
     std::vector<double> largest_shift_;           ///< (N) each rod's part in the shift of a gap, at most
     Velocities known_;                            ///< (N) U_known
     Velocities by_springs_;                       ///< (N) the springs' part of it; (0) without springs

@@ -265,7 +265,7 @@ void Simulation::grow() {
         lineage_ = growth_->divide(rods_, box_, clock_.step, settings_.time_step);
     }
     if (lineage_.empty())
-        find_mobilities();
+        find_sizes();
     else
         take_over_rods();
 }
