@@ -20,7 +20,7 @@ from stress_tensor import Tensor, predicted_normal_difference
 BETA = 5
 ALIGNED = (0.38, 0.40, 0.42, 0.44, 0.46, 0.48, 0.50)
 RANDOM = (0.30, 0.36, 0.38, 0.40, 0.42)
-RMS_STEP = 0.06
+RMS_STEP = 0.03
 NEMATIC = 0.4  # S above this is called nematic: the transition jumps from 0.2 to 0.57
 
 
@@ -31,8 +31,8 @@ def runs(quick):
                        "rods": {"count": 300 if quick else 1000, "length": float(BETA), "start": start},
                        "time": {"rms_step": RMS_STEP}, "contact": {"overlap_limit": 0.5},
                        "solver": {"tolerance": 1e-4}, "output": {"stress_conventions": True, "trajectory_every": 500 if quick else 2000}},
-                equilibration=4000 if quick else 25000,
-                production=10000 if quick else 56000)
+                equilibration=10000 if quick else 60000,
+                production=30000 if quick else 200000)
             for start, phi in chosen]
 
 

@@ -1,70 +1,19 @@
 #include "jostle/contact/cell_list.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
 
-namespace {
-
-/// At most this many cells a rod: more would only cost memory in a dilute assembly.
-constexpr double largest_cells_per_rod = 4.0;
-
-}  // namespace
-
-CellList::CellList(const Rods& rods, const Box& box, double range) : periodic_(box.periodic) {
-    Vec3 low{0, 0, 0}, extent = box.edges;
-    for (int k = 0; k < 3; ++k) {
-        if (periodic_[static_cast<std::size_t>(k)] || rods.size() == 0) continue;
-        const auto less = [k](const Vec3& a, const Vec3& b) { return a[k] < b[k]; };
-        const auto [lowest, highest] = std::minmax_element(rods.centre.begin(), rods.centre.end(), less);
-        low[k] = (*lowest)[k];
-        extent[k] = std::max((*highest)[k] - low[k], range);
-    }
-    origin_ = low;
-    // Cells of half the range: 125 of them enclose less than 27 of the full range would.
-    double edge = 0.5 * range;
-    const double cells = extent.x / edge * (extent.y / edge) * (extent.z / edge);
-    const double allowed = largest_cells_per_rod * static_cast<double>(rods.size()) + 64.0;
-    if (cells > allowed) edge *= std::cbrt(cells / allowed);
-    for (int k = 0; k < 3; ++k) {
-        const auto direction = static_cast<std::size_t>(k);
-        const double number = std::clamp(std::floor(extent[k] / edge), 1.0, 1e6);
-        count_[direction] = static_cast<int>(number);
-        cells_per_length_[k] = number / extent[k];
-        width_[direction] = static_cast<int>(std::ceil(range * cells_per_length_[k]));
-    }
-    const std::size_t total =
-        static_cast<std::size_t>(count_[0]) * static_cast<std::size_t>(count_[1]) * static_cast<std::size_t>(count_[2]);
-    begin_.assign(total + 1, 0);
+CellList::CellList(const Rods& rods, const Box& box, double range) : grid_(rods, box, range) {
+    begin_.assign(grid_.size() + 1, 0);
     rods_.resize(rods.size());
     std::vector<std::uint32_t> cell_of_rod(rods.size());
-    parallel_for(rods.size(), [&](std::size_t i) {
-        const auto [x, y, z] = cell_of(rods.centre[i]);
-        cell_of_rod[i] = static_cast<std::uint32_t>((z * count_[1] + y) * count_[0] + x);
-    });
+    parallel_for(rods.size(),
+                 [&](std::size_t i) { cell_of_rod[i] = static_cast<std::uint32_t>(grid_.cell_of(rods.centre[i])); });
     for (const std::uint32_t cell : cell_of_rod) ++begin_[cell + 1];
-    for (std::size_t cell = 0; cell < total; ++cell) begin_[cell + 1] += begin_[cell];
+    for (std::size_t cell = 0; cell < size(); ++cell) begin_[cell + 1] += begin_[cell];
     std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
     for (std::size_t i = 0; i < rods.size(); ++i) rods_[next[cell_of_rod[i]]++] = static_cast<std::uint32_t>(i);
-}
-
-std::array<int, 3> CellList::cell_of(const Vec3& centre) const {
-    std::array<int, 3> cell{};
-    for (int k = 0; k < 3; ++k) {
-        const auto direction = static_cast<std::size_t>(k);
-        const double position = std::floor((centre[k] - origin_[k]) * cells_per_length_[k]);
-        // Rounding may put a wrapped centre on the upper face; in an open direction the outer cells are unbounded.
-        cell[direction] = static_cast<int>(std::clamp(position, 0.0, static_cast<double>(count_[direction] - 1)));
-    }
-    return cell;
-}
-
-std::array<int, 3> CellList::place_of(std::size_t cell) const {
-    const auto nx = static_cast<std::size_t>(count_[0]), ny = static_cast<std::size_t>(count_[1]);
-    return {static_cast<int>(cell % nx), static_cast<int>(cell / nx % ny), static_cast<int>(cell / (nx * ny))};
 }
 
 }  // namespace jostle

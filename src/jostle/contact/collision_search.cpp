@@ -15,6 +15,13 @@ namespace {
 /// normal, so rounding of the nearest points does not matter to it; to the gap it does, for nearly parallel rods.
 constexpr float bound_error = 1e-5F, gap_error = 2e-3F;
 
+/// Components of normals are kept to this: each is cut by less, the whole normal by less than twice as much.
+constexpr float normal_unit = 1.0F / 32766.0F;
+
+std::int16_t in_normal_units(float component) {
+    return static_cast<std::int16_t>(component * (1.0F / normal_unit));
+}
+
 /// What a pair's touching is at most.
 double most_touching(const Touching& touching, const PairName& name) {
     const double i = touching.part[name.i], j = touching.part[name.j];
@@ -29,7 +36,7 @@ struct Batch {
     Row half_i, half_j, radii;
     Row gap;          ///< before the step
     Row bound_after;  ///< lower bound of the gap after the known motion: the width of a slab with `normal`
-    std::array<Row, 3> normal;
+    std::array<std::array<std::int16_t, size>, 3> normal;  ///< in units of normal_unit
 };
 
 /// The gaps of pairs, and the width of the empty slab between the moved rods whose faces
@@ -47,9 +54,9 @@ JOSTLE_VECTORISED void glance_at(std::size_t count, Batch& batch) {
                                                      {vx[k], vy[k], vz[k]}, batch.half_j[k]);
         const float distance = std::sqrt(ex * ex + ey * ey + ez * ez) + 1e-20F;
         const float nx = ex / distance, ny = ey / distance, nz = ez / distance;
-        normal_x[k] = nx;
-        normal_y[k] = ny;
-        normal_z[k] = nz;
+        normal_x[k] = in_normal_units(nx);
+        normal_y[k] = in_normal_units(ny);
+        normal_z[k] = in_normal_units(nz);
         batch.gap[k] = distance - batch.radii[k];
         batch.bound_after[k] = (x[k] + mx[k]) * nx + (y[k] + my[k]) * ny + (z[k] + mz[k]) * nz -
                                batch.half_i[k] * std::fabs(px[k] * nx + py[k] * ny + pz[k] * nz) -
@@ -84,11 +91,12 @@ double CollisionSearch::find(const Rods& rods, const Box& box, const RodMotion& 
 }
 
 void CollisionSearch::search_block(std::size_t block, const Rods& rods, const Box& box, const RodMotion& motion) {
-    Found& found = blocks_[block];
+    thread_local Found found;
     found.contacts.clear();
     found.bystanders.clear();
     found.overlap = 0.0;
-    std::array<ListedPair, Batch::size> pairs;
+    std::array<std::uint32_t, Batch::size> rows;
+    std::array<std::uint16_t, Batch::size> in_block;
     std::size_t count = 0;
     Batch batch;
     Batch::Row touching;
@@ -96,7 +104,8 @@ void CollisionSearch::search_block(std::size_t block, const Rods& rods, const Bo
         const auto& [i, j, image] = neighbours_.name(row, pair);
         const RodGlance &a = glance_[i], &b = glance_[j];
         const auto between = in_float(b.centre + box.displacement(image) - a.centre);
-        pairs[count] = {row, static_cast<std::uint32_t>(pair - block * NeighbourList::block_size)};
+        rows[count] = row;
+        in_block[count] = static_cast<std::uint16_t>(pair - block * NeighbourList::block_size);
         for (std::size_t k = 0; k < 3; ++k) {
             batch.between[k][count] = between[k];
             batch.moved[k][count] = b.moved[k] - a.moved[k];
@@ -117,20 +126,16 @@ void CollisionSearch::search_block(std::size_t block, const Rods& rods, const Bo
         const float slack = batch.bound_after[k] - bound_error * size - touching[k];
         const bool clear = batch.gap[k] - gap_error * batch.radii[k] > static_cast<float>(range_);
         if (clear && slack >= static_cast<float>(margin_))
-            found.bystanders.push_back({pairs[k], slack, {batch.normal[0][k], batch.normal[1][k], batch.normal[2][k]}});
+            found.bystanders.push_back(
+                {rows[k], slack, {batch.normal[0][k], batch.normal[1][k], batch.normal[2][k]}, in_block[k]});
         else
-            look_closely(block, pairs[k], rods, box, motion);
+            look_closely(name_of(block, rows[k], in_block[k]), in_block[k], rods, box, motion, found);
     }
+    blocks_[block] = found;  // no larger than need be
 }
 
-PairName CollisionSearch::name_of(std::size_t block, const ListedPair& pair) const {
-    return neighbours_.name(pair.i, block * NeighbourList::block_size + pair.in_block);
-}
-
-void CollisionSearch::look_closely(std::size_t block, const ListedPair& pair, const Rods& rods, const Box& box,
-                                   const RodMotion& motion) {
-    Found& found = blocks_[block];
-    const PairName name = name_of(block, pair);
+void CollisionSearch::look_closely(const PairName& name, std::uint16_t in_block, const Rods& rods, const Box& box,
+                                   const RodMotion& motion, Found& found) const {
     const auto& [i, j, image] = name;
     const Vec3 displacement = box.displacement(image);
     const PairGeometry before = pair_geometry(rods, i, j, displacement, rods.centre, rods.axis);
@@ -151,7 +156,11 @@ void CollisionSearch::look_closely(std::size_t block, const ListedPair& pair, co
         found.contacts.resize(known);
     }
     const double slack = gap_after - touching - 1e-6 * after.radii;
-    found.bystanders.push_back({pair, static_cast<float>(slack), in_float(nearest_after.separation / distance_after)});
+    const auto normal = in_float(nearest_after.separation / distance_after);
+    found.bystanders.push_back({i,
+                                static_cast<float>(slack),
+                                {in_normal_units(normal[0]), in_normal_units(normal[1]), in_normal_units(normal[2])},
+                                in_block});
 }
 
 /// Appends the contacts of a pair, with their room. Returns the gap at which the first of them touches.
@@ -189,12 +198,14 @@ bool CollisionSearch::is_contact(const PairName& name, const Contacts& contacts)
 /// Whether pushes could use up the slack of a bystander: by their size, and if so, along the normal of its slab.
 bool CollisionSearch::may_meet(const Bystander& bystander, const Push& i, const Push& j) {
     const float slack = bystander.slack;
-    if (slack >= i.farthest + j.farthest) return false;
+    const float farthest = i.farthest + j.farthest;
+    if (slack >= farthest) return false;
     const auto along = [&normal = bystander.normal](const std::array<float, 3>& a) {
-        return normal[0] * a[0] + normal[1] * a[1] + normal[2] * a[2];
+        return normal_unit * (static_cast<float>(normal[0]) * a[0] + static_cast<float>(normal[1]) * a[1] +
+                              static_cast<float>(normal[2]) * a[2]);
     };
     const float width = slack + along(j.centre) - along(i.centre) - std::fabs(along(i.end)) - std::fabs(along(j.end));
-    return width < i.inaccuracy + j.inaccuracy;
+    return width < i.inaccuracy + j.inaccuracy + 2.0F * normal_unit * farthest;
 }
 
 std::vector<PairName> CollisionSearch::missed_pairs(const Rods& rods, const Box& box, const RodMotion& motion,
@@ -228,7 +239,7 @@ std::vector<PairName> CollisionSearch::missed_pairs(const Rods& rods, const Box&
     if (!neighbours_.built_while_widened()) {
         parallel_for_parts(blocks_.size(), [&](std::size_t block) {
             for (const Bystander& bystander : blocks_[block].bystanders) {
-                const PairName name = name_of(block, bystander.pair);
+                const PairName name = name_of(block, bystander.i, bystander.in_block);
                 if (may_meet(bystander, pushes[name.i], pushes[name.j])) look(block, name);
             }
         });

@@ -77,14 +77,11 @@ private:
         std::array<float, 3> axis, moved, axis_after;
         float half_length, radius, squared_touching;
     };
-    /// A pair of the neighbour list, with its number in a block; good until the list is built again.
-    struct ListedPair {
-        std::uint32_t i, in_block;
-    };
-    struct Bystander {
-        ListedPair pair;
-        float slack;                  ///< how much wider than touching the gap is after the known motion, at least
-        std::array<float, 3> normal;  ///< of a slab of that width between the rods
+    struct Bystander {  ///< there are several a rod, so they take few bytes
+        std::uint32_t i;
+        float slack;  ///< how much wider than touching the gap is after the known motion, at least
+        std::array<std::int16_t, 3> normal;  ///< of a slab of that width between the rods, in units of normal_unit
+        std::uint16_t in_block;  ///< its number in a block of the neighbour list; good until the list is built again
     };
     struct Found {  ///< in one block of the neighbour list
         Contacts contacts;
@@ -92,9 +89,11 @@ private:
         double overlap = 0.0;
     };
 
-    PairName name_of(std::size_t block, const ListedPair& pair) const;
-    void look_closely(std::size_t block, const ListedPair& pair, const Rods& rods, const Box& box,
-                      const RodMotion& motion);
+    PairName name_of(std::size_t block, std::uint32_t i, std::size_t in_block) const {
+        return neighbours_.name(i, block * NeighbourList::block_size + in_block);
+    }
+    void look_closely(const PairName& name, std::uint16_t in_block, const Rods& rods, const Box& box,
+                      const RodMotion& motion, Found& found) const;
     double append(const PairName& name, const PairGeometry& before, const NearestPoints& nearest, double distance,
                   const PairGeometry& after, const Touching& touching, Contacts& contacts) const;
     void search_block(std::size_t block, const Rods& rods, const Box& box, const RodMotion& motion);

@@ -7,6 +7,7 @@
 
 #include "jostle/contact/cell_list.hpp"
 #include "jostle/contact/segment_separation.hpp"
+#include "jostle/error/input_error.hpp"
 #include "jostle/math/vectorised.hpp"
 
 namespace jostle {
@@ -19,14 +20,13 @@ constexpr std::size_t cells_per_block = 16;
 /// is far below this; nearly parallel rods have the largest, some 3e-5.
 constexpr double float_error = 2e-4;
 
-using NarrowImage = NeighbourList::NarrowImage;
+constexpr double units_per_skin = 65535.0;
 
-/// Pairs (i, j, image) of some rods i, one rod after the other.
+/// Pairs (i, j, image) of some rods i, one rod after the other; gap and image as the list holds them.
 struct NewPairs {
     struct Partner {
         std::uint32_t j;
-        float gap;
-        NarrowImage image;
+        std::uint16_t image, gap;
     };
     std::vector<std::uint32_t> i;
     std::vector<Partner> partners;
@@ -36,14 +36,14 @@ struct NewPairs {
 struct Surroundings {
     std::vector<float> x, y, z, axis_x, axis_y, axis_z, half_length, radius, gap;
     std::vector<std::uint32_t> row;
-    std::vector<Image> image;
+    std::vector<std::uint16_t> image;
 
     void clear() {
         for (auto* values : {&x, &y, &z, &axis_x, &axis_y, &axis_z, &half_length, &radius}) values->clear();
         row.clear();
         image.clear();
     }
-    void push_back(const Rods& rods, std::uint32_t j, const Vec3& relative_centre, const Image& new_image) {
+    void push_back(const Rods& rods, std::uint32_t j, const Vec3& relative_centre, std::uint16_t new_image) {
         const auto single = [](double value) { return static_cast<float>(value); };
         x.push_back(single(relative_centre.x));
         y.push_back(single(relative_centre.y));
@@ -71,26 +71,49 @@ JOSTLE_VECTORISED void find_gaps(std::size_t count, const float* x, const float*
     }
 }
 
-/// A rod and its own image: each such pair is met twice, in opposite images; the lexicographically positive one stands
-/// for both.
-bool is_positive(const Image& image) {
-    return image > Image{0, 0, 0};
-}
+/// The images up to `farthest` to both sides of 0, numbered in ascending order.
+class ImageNumbers {
+public:
+    explicit ImageNumbers(const Image& farthest) : farthest_(farthest) {
+        double count = 1.0;
+        for (const int images : farthest) count *= 2.0 * images + 1.0;
+        if (count > 65536.0)
+            throw InputError({.key = "box.edges",
+                              .problem = "are so short that a rod meets the others in more than 65536 periodic images",
+                              .suggestion = "Enlarge the box"});
+    }
 
-NarrowImage narrowed(const Image& image) {
-    return {static_cast<std::int16_t>(image[0]), static_cast<std::int16_t>(image[1]),
-            static_cast<std::int16_t>(image[2])};
-}
+    std::uint16_t of(const Image& image) const {
+        const auto place = [&](std::size_t k) { return image[k] + farthest_[k]; };
+        return static_cast<std::uint16_t>((place(0) * (2 * farthest_[1] + 1) + place(1)) * (2 * farthest_[2] + 1) +
+                                          place(2));
+    }
+
+    std::vector<Image> all() const {
+        std::vector<Image> images;
+        for (int x = -farthest_[0]; x <= farthest_[0]; ++x)
+            for (int y = -farthest_[1]; y <= farthest_[1]; ++y)
+                for (int z = -farthest_[2]; z <= farthest_[2]; ++z) images.push_back({x, y, z});
+        return images;
+    }
+
+private:
+    Image farthest_;
+};
 
 class Builder {
 public:
-    Builder(const Rods& rods, const Box& box, const CellList& cells, double range, double skin)
+    Builder(const Rods& rods, const Box& box, const CellList& cells, const ImageNumbers& images, double range,
+            double skin, double units_per_length)
         : rods_(rods),
           box_(box),
           cells_(cells),
+          images_(images),
+          zero_(images.of({0, 0, 0})),
           squared_range_(range * range),
           error_(static_cast<float>(float_error * range)),
-          skin_(static_cast<float>(skin) + error_) {}
+          skin_(static_cast<float>(skin) + error_),
+          units_per_length_(static_cast<float>(units_per_length)) {}
 
     /// Appends the pairs (i, j >= i, image) with a gap below the skin, of all i in a cell; in order for each i. Fills
     /// in how many there are of each.
@@ -112,8 +135,9 @@ public:
                       around.gap.data());
             for (std::size_t k = 0; k < around.size(); ++k) {
                 const std::uint32_t j = around.row[k];
-                if (around.gap[k] >= skin_ || j < i || (j == i && !is_positive(around.image[k]))) continue;
-                pairs.partners.push_back({j, around.gap[k] - error_, narrowed(around.image[k])});
+                // A rod and its own image are met twice, in opposite images; the one above 0 stands for both.
+                if (around.gap[k] >= skin_ || j < i || (j == i && around.image[k] <= zero_)) continue;
+                pairs.partners.push_back({j, around.image[k], in_units(around.gap[k])});
             }
             pairs.i.push_back(i);
             count[i] = pairs.partners.size() - first;
@@ -123,6 +147,10 @@ public:
     }
 
 private:
+    std::uint16_t in_units(float gap) const {
+        return static_cast<std::uint16_t>(std::clamp((gap - error_) * units_per_length_, 0.0F, 65535.0F));
+    }
+
     /// The rods within range of the box that encloses the centres of `homes`.
     void gather(std::size_t home, std::span<const std::uint32_t> homes, const Vec3& origin,
                 Surroundings& around) const {
@@ -135,6 +163,7 @@ private:
         around.clear();
         cells_.visit(home, [&](std::span<const std::uint32_t> others, const Image& image) {
             const Vec3 displacement = box_.displacement(image) - origin;
+            const std::uint16_t number = images_.of(image);
             for (const std::uint32_t j : others) {
                 if (j < homes.front()) continue;  // all such pairs are those of the other cell
                 const Vec3 centre = rods_.centre[j] + displacement;
@@ -143,7 +172,7 @@ private:
                     const double outside = std::max({low[k] - centre[k], centre[k] - high[k], 0.0});
                     squared += outside * outside;
                 }
-                if (squared < squared_range_) around.push_back(rods_, j, centre, image);
+                if (squared < squared_range_) around.push_back(rods_, j, centre, number);
             }
         });
     }
@@ -151,13 +180,15 @@ private:
     const Rods& rods_;
     const Box& box_;
     const CellList& cells_;
+    const ImageNumbers& images_;
+    std::uint16_t zero_;
     double squared_range_;
-    float error_, skin_;
+    float error_, skin_, units_per_length_;
 };
 
-JOSTLE_VECTORISED void extents_less_gaps(std::size_t count, const std::uint32_t* i, const std::uint32_t* j,
-                                         const float* gap, const float* extent, float* closeness) {
-    for (std::size_t k = 0; k < count; ++k) closeness[k] = extent[i[k]] + extent[j[k]] - gap[k];
+JOSTLE_VECTORISED void extents_less_gaps(std::size_t count, const std::uint32_t* j, const std::uint16_t* gap,
+                                         const std::int32_t* extent, std::int32_t* extent_i) {
+    for (std::size_t k = 0; k < count; ++k) extent_i[k] += extent[j[k]] - gap[k];
 }
 
 }  // namespace
@@ -170,8 +201,8 @@ void NeighbourList::widen(const Rods& rods, const Box& box, std::span<const doub
         extent_ = extent_within_;
     bool reaches_too_far = built_while_widened_;
     for (const auto& [row, beyond] : farther) {
-        set_extent(row, extent_[row] + beyond);
-        reaches_too_far = reaches_too_far || extent_[row] > 0.5 * skin_;
+        extent_[row] += in_units(beyond);
+        reaches_too_far = reaches_too_far || extent_[row] > in_units(0.5 * skin_);
     }
     if (!reaches_too_far) return;
     std::vector<double> needed(reach.begin(), reach.end());
@@ -185,7 +216,7 @@ bool NeighbourList::refresh(const Rods& rods, const Box& box, std::span<const do
     if (reference_.centre.size() == rods.size() && find_extents(rods, box, reach) <= 0.5 * skin_) return false;
     const double largest_reach = parallel_max(rods.size(), 0.0, [&](std::size_t i) { return reach[i]; });
     build(rods, box, 2.0 * (largest_reach + travel_));
-    parallel_for(rods.size(), [&](std::size_t i) { set_extent(i, reach[i]); });
+    parallel_for(rods.size(), [&](std::size_t i) { extent_[i] = in_units(reach[i]); });
     return true;
 }
 
@@ -198,34 +229,35 @@ double NeighbourList::find_extents(const Rods& rods, const Box& box, std::span<c
             Image crossed;
             for (std::size_t k = 0; k < 3; ++k) crossed[k] = rods.image[i][k] - reference_.image[i][k];
             moved += box.displacement(crossed);
-            crossed_[i] = narrowed(crossed);
+            for (std::size_t k = 0; k < 3; ++k) crossed_[i][k] = static_cast<std::int16_t>(crossed[k]);
         }
         // A rod that was turned round is the same body: what counts is how far its points are from any of before.
         const Vec3 &axis = rods.axis[i], &before = reference_.axis[i];
         const Vec3 turned = dot(axis, before) < 0.0 ? axis + before : axis - before;
         const double extent = farthest_displacement(moved, turned, 0.5 * reference_.length[i]) +
                               0.5 * std::max(0.0, rods.length[i] - reference_.length[i]) + reach[i];
-        set_extent(i, extent);
+        extent_[i] = in_units(extent);
         return extent;
     });
 }
 
-void NeighbourList::set_extent(std::size_t i, double extent) {
-    extent_[i] = static_cast<float>(extent * (1.0 + 1e-6));
+/// Rounded up; far beyond the skin, all are alike.
+std::int32_t NeighbourList::in_units(double extent) const {
+    return 1 + static_cast<std::int32_t>(std::min(extent * units_per_length_, 4.0 * units_per_skin));
 }
 
-/// The rows that pairs belong to.
-void NeighbourList::find_rows(std::size_t begin, std::size_t end, std::uint32_t* i) const {
+/// The rows that pairs belong to, and by how much their extents exceed their gaps.
+void NeighbourList::find_closeness(std::size_t begin, std::size_t end, std::uint32_t* i,
+                                   std::int32_t* closeness) const {
     auto next = std::upper_bound(begin_.begin(), begin_.end(), begin);
     for (std::size_t pair = begin; pair < end; ++next) {
+        const auto row = static_cast<std::uint32_t>(next - begin_.begin() - 1);
         const std::size_t last = std::min(*next, end);
-        i = std::fill_n(i, last - pair, static_cast<std::uint32_t>(next - begin_.begin() - 1));
+        std::fill(i + (pair - begin), i + (last - begin), row);
+        std::fill(closeness + (pair - begin), closeness + (last - begin), extent_[row]);
         pair = last;
     }
-}
-
-void NeighbourList::find_closeness(std::size_t begin, std::size_t end, const std::uint32_t* i, float* closeness) const {
-    extents_less_gaps(end - begin, i, j_.data() + begin, gap_.data() + begin, extent_.data(), closeness);
+    extents_less_gaps(end - begin, j_.data() + begin, gap_.data() + begin, extent_.data(), closeness);
 }
 
 void NeighbourList::build(const Rods& rods, const Box& box, double skin) {
@@ -245,7 +277,10 @@ void NeighbourList::build(const Rods& rods, const Box& box, double skin) {
         parallel_max(rods.size(), 0.0, [&](std::size_t i) { return rods.length[i] + rods.diameter[i]; });
     const double range = longest + skin;
     const CellList cells(rods, box, range);
-    const Builder builder(rods, box, cells, range, skin);
+    const ImageNumbers images(cells.farthest_image());
+    images_ = images.all();
+    units_per_length_ = skin > 0.0 ? units_per_skin / skin : 0.0;
+    const Builder builder(rods, box, cells, images, range, skin, units_per_length_);
     std::vector<NewPairs> blocks((cells.size() + cells_per_block - 1) / cells_per_block);
     begin_.assign(rods.size() + 1, 0);
     parallel_for_blocks(cells.size(), cells_per_block, [&](std::size_t block, std::size_t first, std::size_t last) {

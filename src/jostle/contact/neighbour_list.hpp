@@ -21,8 +21,6 @@ namespace jostle {
 /// suffice as long as d_i + reach_i <= skin/2 for all i.
 class NeighbourList {
 public:
-    using NarrowImage = std::array<std::int16_t, 3>;  ///< an image in few bytes: there are many
-
     /// `travel`: how far a rod may go, beside its reach, before the list is built again (a length).
     explicit NeighbourList(double travel) : travel_(travel) {}
     void set_travel(double travel) { travel_ = travel; }
@@ -47,15 +45,15 @@ public:
     /// Forces building at the next update (rods were added, removed or renumbered).
     void invalidate() { reference_.centre.clear(); }
 
-    /// Number of pairs, in the order of (i, j, image); i <= j. There are many, so the list holds no i: it is told with
-    /// the number of a pair.
+    /// Number of pairs, in the order of (i, j, image); i <= j. There are many, so each takes eight bytes, and the list
+    /// holds no i: it is told with the number of a pair.
     std::size_t size() const { return j_.size(); }
 
     /// A pair of row i, in its image at the last update: rods that have crossed a periodic face since building are
     /// accounted for.
     PairName name(std::uint32_t i, std::size_t pair) const {
-        PairName now{i, j_[pair], {}};
-        for (std::size_t k = 0; k < 3; ++k) now.image[k] = image_[pair][k] + crossed_[now.j][k] - crossed_[i][k];
+        PairName now{i, j_[pair], images_[image_[pair]]};
+        for (std::size_t k = 0; k < 3; ++k) now.image[k] += crossed_[now.j][k] - crossed_[i][k];
         return now;
     }
 
@@ -68,14 +66,13 @@ public:
     void for_close_pairs(std::size_t block, Found&& found) const {
         const std::size_t begin = block * block_size, end = std::min(begin + block_size, size());
         std::array<std::uint32_t, block_size> i;
-        find_rows(begin, end, i.data());
-        std::array<float, block_size> closeness;
+        std::array<std::int32_t, block_size> closeness;
         find_closeness(begin, end, i.data(), closeness.data());
-        std::array<std::uint32_t, block_size> close;  // without a jump: closeness is badly guessed
+        std::array<std::uint32_t, block_size> close;  // without a jump: it would be badly guessed
         std::size_t count = 0;
         for (std::size_t k = 0; k < end - begin; ++k) {
             close[count] = static_cast<std::uint32_t>(k);
-            count += closeness[k] >= 0.0F ? 1 : 0;
+            count += closeness[k] >= 0 ? 1 : 0;
         }
         for (std::size_t k = 0; k < count; ++k) found(i[close[k]], begin + close[k]);
     }
@@ -85,19 +82,19 @@ public:
 
     /// Whether for_close_pairs named the pair before the list was widened; no for all if it had to be built anew.
     bool was_close(std::uint32_t i, std::size_t pair) const {
-        return !built_while_widened_ && extent_within_[i] + extent_within_[j_[pair]] - gap_[pair] >= 0.0F;
+        return !built_while_widened_ && extent_within_[i] + extent_within_[j_[pair]] >= gap_[pair];
     }
 
 private:
     bool refresh(const Rods& rods, const Box& box, std::span<const double> reach);
     double find_extents(const Rods& rods, const Box& box, std::span<const double> reach);
-    void set_extent(std::size_t i, double extent);
+    std::int32_t in_units(double extent) const;
     void build(const Rods& rods, const Box& box, double skin);
-    void find_rows(std::size_t begin, std::size_t end, std::uint32_t* i) const;
-    void find_closeness(std::size_t begin, std::size_t end, const std::uint32_t* i, float* closeness) const;
+    void find_closeness(std::size_t begin, std::size_t end, std::uint32_t* i, std::int32_t* closeness) const;
 
     double travel_;
     double skin_ = 0.0;
+    double units_per_length_ = 0.0;  ///< gaps are kept in units of which 65535 are the skin
     struct Reference {
         std::vector<Vec3> centre, axis;
         std::vector<Image> image;
@@ -105,11 +102,12 @@ private:
     } reference_;                     ///< (N) the rods when the list was built
     std::vector<std::size_t> begin_;  ///< (N + 1) the first pair of each row
     std::vector<std::uint32_t> j_;
-    std::vector<float> gap_;            ///< when the list was built, rounded down
-    std::vector<NarrowImage> image_;    ///< when the list was built
-    std::vector<NarrowImage> crossed_;  ///< (N) box edges that a rod has crossed since
-    std::vector<float> extent_;         ///< (N) d_i + reach_i at the last update, rounded up
-    std::vector<float> extent_within_;  ///< (N) before the list was widened, or none
+    std::vector<std::uint16_t> gap_;    ///< when the list was built, in units, rounded down; 0 if negative
+    std::vector<std::uint16_t> image_;  ///< when the list was built: which of images_
+    std::vector<Image> images_;         ///< ascending
+    std::vector<std::array<std::int16_t, 3>> crossed_;  ///< (N) box edges that a rod has crossed since
+    std::vector<std::int32_t> extent_;                  ///< (N) d_i + reach_i at the last update, in units, rounded up
+    std::vector<std::int32_t> extent_within_;           ///< (N) before the list was widened, or none
     bool built_while_widened_ = false;
 };
 

@@ -4,17 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "jostle/contact/find_contacts.hpp"
 #include "jostle/error/input_error.hpp"
-#include "jostle/math/random.hpp"
 #include "jostle/mobility/drag_mobility.hpp"
 #include "jostle/motion/brownian_motion.hpp"
 #include "jostle/rods/space_filling_order.hpp"
 #include "jostle/simulation/largest_overlap.hpp"
 #include "jostle/simulation/push_apart.hpp"
-#include "jostle/simulation/rod_size.hpp"
+#include "jostle/simulation/scattered_rods.hpp"
 #include "jostle/simulation/simulation.hpp"
 
 namespace jostle {
@@ -24,18 +21,8 @@ namespace {
 /// Overlaps below this (in D) in a start read from a file are taken for rounding of the file's decimals.
 constexpr double file_overlap = 1e-3;
 
-/// Draws of a rod's place before what still overlaps is pushed apart.
-constexpr std::uint32_t largest_draws = 100;
-
 /// Of the contact problems while shaking, in D.
 constexpr double shaking_tolerance = 1e-3;
-
-Vec3 random_axis(const RandomKey& key, std::uint32_t draw) {
-    const auto u = uniform4(key, 2 * draw + 1);
-    const double z = 2.0 * u[0] - 1.0;
-    const double radius = std::sqrt(1.0 - z * z), angle = 2.0 * std::numbers::pi * u[1];
-    return normalised({radius * std::cos(angle), radius * std::sin(angle), z});
-}
 
 /// A mobility only for pushing apart: unit drag, and the rotation that a thin rod of that drag would have, or none.
 DragMobility pushing_mobility(bool turning) {
@@ -98,39 +85,6 @@ Rods pushed_apart(Rods rods, const Box& box, bool turning, const Scene& scene) {
     }
     rods.image.assign(rods.size(), Image{0, 0, 0});
     return reordered(rods, id_order(rods));  // shaking has renumbered them
-}
-
-/// Of every two rods that overlap the one with the higher id.
-std::vector<bool> rods_to_draw_again(const Rods& rods, const Box& box) {
-    const std::vector<double> no_reach(rods.size(), 0.0);
-    NeighbourList neighbours(0.0);
-    neighbours.update(rods, box, no_reach);
-    Contacts overlaps;
-    find_contacts(rods, box, neighbours, no_reach, overlaps);
-    std::vector<bool> again(rods.size(), false);
-    for (const Contact& overlap : overlaps.contact) again[overlap.j] = true;
-    return again;
-}
-
-/// Rods at random places, those that overlap one of a lower id drawn anew: while they are dilute this leaves them as in
-/// equilibrium to first order in the density, where pushing them apart would leave too many touching.
-Rods scattered(const Scene& scene, const Box& box, const std::optional<Vec3>& common_axis) {
-    Rods rods;
-    for (const RodSize& size : rod_sizes(scene))
-        rods.push_back(rods.size(), {}, common_axis.value_or(Vec3{}), size.length, size.diameter);
-    std::vector<bool> again(rods.size(), true);
-    for (std::uint32_t draw = 0; draw < largest_draws; ++draw) {
-        for (std::size_t i = 0; i < rods.size(); ++i) {
-            if (!again[i]) continue;
-            const RandomKey key{scene.seed, 0, Stream::start, rods.id[i]};
-            const auto u = uniform4(key, 2 * draw);
-            rods.centre[i] = {u[0] * box.edges.x, u[1] * box.edges.y, u[2] * box.edges.z};
-            if (!common_axis) rods.axis[i] = random_axis(key, draw);
-        }
-        again = rods_to_draw_again(rods, box);
-        if (std::find(again.begin(), again.end(), true) == again.end()) break;
-    }
-    return rods;
 }
 
 /// Sites along the rods (direction 0) and across (1, 2).
@@ -211,9 +165,9 @@ Rods checked(Rods rods, const Box& box, const Scene& scene) {
 Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& from_file) {
     switch (scene.rods.start) {
         case StartKind::random:
-            return pushed_apart(scattered(scene, box, std::nullopt), box, true, scene);
+            return pushed_apart(scattered_rods(scene, box, std::nullopt), box, true, scene);
         case StartKind::aligned:
-            return pushed_apart(scattered(scene, box, normalised(scene.rods.axis)), box, false, scene);
+            return pushed_apart(scattered_rods(scene, box, normalised(scene.rods.axis)), box, false, scene);
         case StartKind::lattice:
             return lattice(scene, box);
         case StartKind::file:

@@ -4,6 +4,7 @@
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/simulation/largest_overlap.hpp"
+#include "jostle/simulation/scattered_rods.hpp"
 #include "jostle/simulation/start.hpp"
 #include "jostle/statistics/order_parameter.hpp"
 
@@ -47,6 +48,26 @@ TEST_CASE("random starts reach phi = 0.40 at L/D = 5 and 0.50 for spheres, witho
             CHECK(rods.id[i] == i);
             CHECK(std::fabs(norm(rods.axis[i]) - 1.0) < 1e-12);
         }
+    }
+}
+
+TEST_CASE("drawing anew alone leaves no overlap where rods are dilute, in thin boxes and of many lengths too") {
+    struct Case {
+        double length, length_deviation;
+        Vec3 edges;
+    };
+    for (const auto& [length, length_deviation, edges] :
+         {Case{5.0, 0.0, {40, 40, 40}}, Case{5.0, 0.0, {120, 120, 3}}, Case{4.0, 1.5, {30, 40, 50}},
+          Case{0.0, 0.0, {25, 25, 25}}, Case{60.0, 0.0, {70, 70, 70}}}) {
+        CAPTURE(length);
+        CAPTURE(edges.z);
+        Scene scene = scene_of(600, length, StartKind::random);
+        if (length > 10.0) scene.rods.count = 60;
+        scene.rods.length_deviation = length_deviation;
+        const Box box{edges, {true, true, true}};
+        const Rods rods = scattered_rods(scene, box, std::nullopt);
+        CHECK(largest_overlap(rods, box) == 0.0);
+        for (std::size_t i = 0; i < rods.size(); ++i) CHECK(rods.id[i] == i);
     }
 }
 

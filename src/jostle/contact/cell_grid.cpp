@@ -1,0 +1,56 @@
+#include "jostle/contact/cell_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jostle {
+
+namespace {
+
+/// At most this many cells a rod: more would only cost memory in a dilute assembly.
+constexpr double largest_cells_per_rod = 4.0;
+
+}  // namespace
+
+CellGrid::CellGrid(const Rods& rods, const Box& box, double range) : periodic_(box.periodic) {
+    Vec3 low{0, 0, 0}, extent = box.edges;
+    for (int k = 0; k < 3; ++k) {
+        if (periodic_[static_cast<std::size_t>(k)] || rods.size() == 0) continue;
+        const auto less = [k](const Vec3& a, const Vec3& b) { return a[k] < b[k]; };
+        const auto [lowest, highest] = std::minmax_element(rods.centre.begin(), rods.centre.end(), less);
+        low[k] = (*lowest)[k];
+        extent[k] = std::max((*highest)[k] - low[k], range);
+    }
+    origin_ = low;
+    // Cells of half the range: 125 of them enclose less than 27 of the full range would.
+    double edge = 0.5 * range;
+    const double cells = extent.x / edge * (extent.y / edge) * (extent.z / edge);
+    const double allowed = largest_cells_per_rod * static_cast<double>(rods.size()) + 64.0;
+    if (cells > allowed) edge *= std::cbrt(cells / allowed);
+    for (int k = 0; k < 3; ++k) {
+        const auto direction = static_cast<std::size_t>(k);
+        const double number = std::clamp(std::floor(extent[k] / edge), 1.0, 1e6);
+        count_[direction] = static_cast<int>(number);
+        cells_per_length_[k] = number / extent[k];
+        width_[direction] = static_cast<int>(std::ceil(range * cells_per_length_[k]));
+    }
+}
+
+std::size_t CellGrid::cell_of(const Vec3& centre) const {
+    std::array<std::size_t, 3> cell{};
+    for (int k = 0; k < 3; ++k) {
+        const auto direction = static_cast<std::size_t>(k);
+        const double position = std::floor((centre[k] - origin_[k]) * cells_per_length_[k]);
+        // Rounding may put a wrapped centre on the upper face; in an open direction the outer cells are unbounded.
+        cell[direction] =
+            static_cast<std::size_t>(std::clamp(position, 0.0, static_cast<double>(count_[direction] - 1)));
+    }
+    return (cell[2] * static_cast<std::size_t>(count_[1]) + cell[1]) * static_cast<std::size_t>(count_[0]) + cell[0];
+}
+
+std::array<int, 3> CellGrid::place_of(std::size_t cell) const {
+    const auto nx = static_cast<std::size_t>(count_[0]), ny = static_cast<std::size_t>(count_[1]);
+    return {static_cast<int>(cell % nx), static_cast<int>(cell / nx % ny), static_cast<int>(cell / (nx * ny))};
+}
+
+}  // namespace jostle
