@@ -43,7 +43,7 @@ double seconds_per_rod_and_step(double volume_fraction) {
     return (0.35 + 5.0 * volume_fraction + 8.0 * volume_fraction * volume_fraction) * 1e-6;
 }
 double bytes_per_rod(double volume_fraction) {
-    return 900.0 + 6000.0 * volume_fraction;
+    return 480.0 + 2000.0 * volume_fraction + 9000.0 * volume_fraction * volume_fraction;
 }
 
 void print(const char* name, const std::string& value) {

@@ -1,6 +1,8 @@
 #include "jostle/io/checkpoint.hpp"
 
 #include <array>
+#include <functional>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -19,7 +21,38 @@ constexpr std::size_t header_bytes = 24;
 constexpr std::size_t checksum_bytes = 8;
 constexpr const char* start_again = "Start the run again with --fresh";
 
-void put_rods(ByteWriter& writer, const Rods& rods) {
+/// The bytes of a checkpoint in pieces: small values are copied, arrays stay where they are, for there may be ten
+/// million rods.
+class Payload {
+public:
+    template <class Value>
+    void put(const Value& value) {
+        parts_.back().copied.put(value);
+    }
+    void put_text(std::string_view text) { parts_.back().copied.put_text(text); }
+    template <class Value>
+    void put_elements(const std::vector<Value>& values) {
+        static_assert(std::is_trivially_copyable_v<Value>);
+        parts_.back().array = {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)};
+        parts_.emplace_back();
+    }
+
+    /// As long as arrays and this are there.
+    std::vector<std::string_view> pieces() const {
+        std::vector<std::string_view> pieces;
+        for (const Part& part : parts_) pieces.insert(pieces.end(), {part.copied.bytes(), part.array});
+        return pieces;
+    }
+
+private:
+    struct Part {
+        ByteWriter copied;
+        std::string_view array;  ///< after it
+    };
+    std::vector<Part> parts_{1};
+};
+
+void put_rods(Payload& writer, const Rods& rods) {
     writer.put(static_cast<std::uint64_t>(rods.size()));
     writer.put_elements(rods.centre);
     writer.put_elements(rods.axis);
@@ -51,7 +84,7 @@ Rods take_rods(ByteReader& reader) {
     return rods;
 }
 
-void put_springs(ByteWriter& writer, const std::vector<Spring>& springs) {
+void put_springs(Payload& writer, const std::vector<Spring>& springs) {
     writer.put(static_cast<std::uint64_t>(springs.size()));
     for (const Spring& spring : springs) {  // one by one: what pads a Spring in memory is not defined
         writer.put(spring.rod_1);
@@ -71,8 +104,8 @@ std::vector<Spring> take_springs(ByteReader& reader) {
     return springs;
 }
 
-std::string payload_of(const Checkpoint& checkpoint) {
-    ByteWriter writer;
+Payload payload_of(const Checkpoint& checkpoint) {
+    Payload writer;
     writer.put_text(checkpoint.scene);
     writer.put(checkpoint.step);
     writer.put(checkpoint.time);
@@ -92,7 +125,7 @@ std::string payload_of(const Checkpoint& checkpoint) {
     writer.put(checkpoint.field_hash);
     writer.put(checkpoint.lineage_bytes);
     writer.put(checkpoint.lineage_hash);
-    return writer.bytes();
+    return writer;
 }
 
 Checkpoint from_payload(std::string_view payload) {
@@ -168,20 +201,24 @@ std::string way_out(const std::string& path, const std::string& previous) {
 }  // namespace
 
 void write_checkpoint(const std::string& folder, const Checkpoint& checkpoint) {
-    const std::string payload = payload_of(checkpoint);
-    ByteWriter header;
-    header.put(format_version);
-    header.put(std::uint32_t{0});
-    header.put(static_cast<std::uint64_t>(payload.size()));
-    std::string file = std::string(magic) + header.bytes() + payload;
+    const Payload payload = payload_of(checkpoint);
+    std::vector<std::string_view> pieces = payload.pieces();
+    ByteWriter numbers;
+    numbers.put(format_version);
+    numbers.put(std::uint32_t{0});
+    numbers.put(std::transform_reduce(pieces.begin(), pieces.end(), std::uint64_t{0}, std::plus<>(),
+                                      [](std::string_view piece) { return std::uint64_t{piece.size()}; }));
+    pieces.insert(pieces.begin(), {magic, numbers.bytes()});
+    RunningChecksum sum;
+    for (const std::string_view piece : pieces) sum.add(piece);
     ByteWriter footer;
-    footer.put(checksum(file));
-    file += footer.bytes();
+    footer.put(sum.value());
+    pieces.push_back(footer.bytes());
 
     const std::string path = folder + "/checkpoint";
     const std::string temporary = path + ".tmp";
     try {
-        write_synced_file(temporary, file);
+        write_synced_file(temporary, pieces);
         if (file_exists(path)) rename_file(path, path + ".previous");
         rename_file(temporary, path);
     } catch (...) {

@@ -139,17 +139,17 @@ std::string read_file(const std::string& path) {
     return content;
 }
 
-void write_synced_file(const std::string& path, std::string_view content) {
+void write_synced_file(const std::string& path, std::span<const std::string_view> pieces) {
     AppendFile file(path);
     file.truncate_to(0);
-    file.write_all(content);
+    for (const std::string_view piece : pieces) file.write_all(piece);
     file.sync();
 }
 
 void replace_file(const std::string& path, std::string_view content) {
     const std::string temporary = path + ".tmp";
     try {
-        write_synced_file(temporary, content);
+        write_synced_file(temporary, {&content, 1});
         rename_file(temporary, path);
     } catch (...) {
         remove_file_if_present(temporary);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -84,8 +85,9 @@ std::string read_file(const std::string& path);
 /// Goes through PATH.tmp; on failure that is removed and the old file stays. Errors: DiskError.
 void replace_file(const std::string& path, std::string_view content);
 
-/// The steps of replace_file, for sequences of their own (each ends with an fsync where it matters). Errors: DiskError.
-void write_synced_file(const std::string& path, std::string_view content);
+/// The steps of replace_file, for sequences of their own and content in pieces (each ends with an fsync where it
+/// matters). Errors: DiskError.
+void write_synced_file(const std::string& path, std::span<const std::string_view> pieces);
 void rename_file(const std::string& from, const std::string& to);
 void sync_folder(const std::string& folder);
 void remove_file_if_present(const std::string& path) noexcept;

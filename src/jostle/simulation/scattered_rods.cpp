@@ -149,10 +149,11 @@ Rods scattered_rods(const Scene& scene, const Box& box, const std::optional<Vec3
     MovableCells cells(rods, box);
     std::size_t when_sorted = again.size();
     again = rows_to_draw_again(rods, cells, again);
+    const std::size_t worth_sorting = rods.size() / 16;  // fewer are soon drawn anew wherever they lie in memory
     const auto most_few = static_cast<std::size_t>(few * static_cast<double>(rods.size()));
     for (std::uint32_t draw = 1; !again.empty() && draw < (again.size() <= most_few ? most_draws_of_few : most_draws);
          ++draw) {
-        if (again.size() <= when_sorted / 2) {
+        if (again.size() <= when_sorted / 2 && when_sorted > worth_sorting) {
             sort_in_space(rods, box, again);
             cells = MovableCells(rods, box);
             when_sorted = again.size();
