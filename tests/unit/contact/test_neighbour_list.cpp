@@ -5,6 +5,7 @@
 
 #include "assemblies.hpp"
 #include "jostle/contact/find_contacts.hpp"
+#include "jostle/error/input_error.hpp"
 #include "jostle/math/rotation.hpp"
 
 using namespace jostle;
@@ -130,4 +131,13 @@ TEST_CASE("contacts do not depend on when the list was built") {
         CHECK(from_old.contact[l].gap == from_new.contact[l].gap);  // bit for bit
         CHECK(from_old.contact[l].normal == from_new.contact[l].normal);
     }
+}
+
+TEST_CASE("a rod that winds through a tiny box again and again is refused, not listed wrongly") {
+    Rods rods;
+    rods.push_back(0, {}, {1, 0, 0}, 60.0, 1.0);
+    const std::vector<double> reach(1, 0.1);
+    NeighbourList neighbours(0.1);
+    CHECK_THROWS_AS(neighbours.update(rods, {{2, 2, 2}, {true, true, true}}, reach), InputError);
+    CHECK_NOTHROW(neighbours.update(rods, {{2, 70, 70}, {true, true, true}}, reach));
 }
