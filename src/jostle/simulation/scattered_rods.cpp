@@ -26,18 +26,12 @@ constexpr std::size_t rods_per_block = 64;
 
 using Rows = std::vector<std::uint32_t>;
 
-double room_of(const Rods& rods, std::size_t i) {
-    return rods.length[i] + rods.diameter[i];
-}
-
 /// Rods in cells, that may be moved to other places one by one.
 class MovableCells {
 public:
-    MovableCells(const Rods& rods, const Box& box)
-        : box_(box),
-          grid_(rods, box, parallel_max(rods.size(), 0.0, [&](std::size_t i) { return room_of(rods, i); })),
-          first_(grid_.size(), none),
-          next_(rods.size(), none) {
+    /// `range`: the largest distance of centres that `visit` must cover.
+    MovableCells(const Rods& rods, const Box& box, double range)
+        : box_(box), grid_(rods, box, range), first_(grid_.size(), none), next_(rods.size(), none) {
         for (std::size_t i = rods.size(); i-- > 0;) put_in(static_cast<std::uint32_t>(i), rods.centre[i]);
     }
 
@@ -87,14 +81,14 @@ Vec3 random_axis(const RandomKey& key, std::uint32_t draw) {
     return normalised({radius * std::cos(angle), radius * std::sin(angle), z});
 }
 
-/// Of every two rods that overlap, one of them in `rows`, the one with the higher id.
-Rows rows_to_draw_again(const Rods& rods, const MovableCells& cells, const Rows& rows) {
+/// Of every two rods that overlap, one of them in `rows`, the one with the higher id. Rods farther apart than `range`
+/// do not.
+Rows rows_to_draw_again(const Rods& rods, const MovableCells& cells, double range, const Rows& rows) {
     std::vector<Rows> found((rows.size() + rods_per_block - 1) / rods_per_block);
     const auto look_around = [&](std::uint32_t row, Rows& again) {
         cells.visit(rods.centre[row], [&](std::uint32_t other, const Vec3& displacement) {
             const Vec3 between = rods.centre[other] + displacement - rods.centre[row];
             const double squared_distance = squared_norm(between);
-            const double range = 0.5 * (room_of(rods, row) + room_of(rods, other));
             if (squared_distance >= range * range || (other == row && squared_distance == 0.0)) return;
             // Most are told apart by the distance of the lines through their axes.
             const Vec3 across = cross(rods.axis[row], rods.axis[other]);
@@ -117,14 +111,14 @@ Rows rows_to_draw_again(const Rods& rods, const MovableCells& cells, const Rows&
     return again;
 }
 
-/// Rods near each other in space come near each other in memory, and `rows` follow.
-void sort_in_space(Rods& rods, const Box& box, Rows& rows) {
-    const Rows order = space_filling_order(rods, box);
-    Rows place(rods.size());
+/// Puts the rods in the order of cells, so that those near each other come near each other in memory; `rows` follow.
+void sort(Rods& rods, const MovableCells& cells, Rows& rows) {
+    Rows order(rods.size()), place(rods.size());
+    std::iota(order.begin(), order.end(), 0);
+    cells.sort(order, rods);
     parallel_for(order.size(), [&](std::size_t k) { place[order[k]] = static_cast<std::uint32_t>(k); });
     rods = reordered(rods, order);
     for (std::uint32_t& row : rows) row = place[row];
-    std::sort(rows.begin(), rows.end());
 }
 
 }  // namespace
@@ -144,25 +138,28 @@ Rods scattered_rods(const Scene& scene, const Box& box, const std::optional<Vec3
     };
     Rows again(rods.size());
     std::iota(again.begin(), again.end(), 0);
+    const double range =
+        parallel_max(rods.size(), 0.0, [&](std::size_t i) { return rods.length[i] + rods.diameter[i]; });
     draw_places(again, 0);
-    sort_in_space(rods, box, again);
-    MovableCells cells(rods, box);
-    std::size_t when_sorted = again.size();
-    again = rows_to_draw_again(rods, cells, again);
+    MovableCells cells(rods, box, range);
+    std::size_t when_sorted = 0;
+    const auto sort_all = [&] {
+        sort(rods, cells, again);
+        cells = MovableCells(rods, box, range);
+        when_sorted = again.size();
+    };
+    sort_all();
+    again = rows_to_draw_again(rods, cells, range, again);
     const std::size_t worth_sorting = rods.size() / 16;  // fewer are soon drawn anew wherever they lie in memory
     const auto most_few = static_cast<std::size_t>(few * static_cast<double>(rods.size()));
     for (std::uint32_t draw = 1; !again.empty() && draw < (again.size() <= most_few ? most_draws_of_few : most_draws);
          ++draw) {
-        if (again.size() <= when_sorted / 2 && when_sorted > worth_sorting) {
-            sort_in_space(rods, box, again);
-            cells = MovableCells(rods, box);
-            when_sorted = again.size();
-        }
+        if (again.size() <= when_sorted / 2 && when_sorted > worth_sorting) sort_all();
         for (const std::uint32_t row : again) cells.take_out(row, rods.centre[row]);
         draw_places(again, draw);
         for (const std::uint32_t row : again) cells.put_in(row, rods.centre[row]);
         cells.sort(again, rods);
-        again = rows_to_draw_again(rods, cells, again);
+        again = rows_to_draw_again(rods, cells, range, again);
     }
     return reordered(rods, id_order(rods));
 }
