@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "jostle/math/vec3.hpp"
 
@@ -18,6 +19,25 @@ double violation(const PairMatrix& pair, const Points& without, const Points& ga
         largest = std::max(largest, std::fabs(std::min(pair.matrix[a][a] * gamma[a], velocity)));
     }
     return largest;
+}
+
+/// gamma of two points: the active set whose signs are right. None where their matrix is nearly singular.
+std::optional<Points> of_two_points(const PairMatrix& pair, const Points& without) {
+    const auto& K = pair.matrix;
+    if (without[0] >= 0.0 && without[1] >= 0.0) return Points{};
+    for (std::size_t a = 0; a < 2; ++a) {
+        const std::size_t other = 1 - a;
+        if (!(without[a] < 0.0 && K[a][a] > 0.0)) continue;
+        Points gamma{};
+        gamma[a] = -without[a] / K[a][a];
+        if (without[other] + K[other][a] * gamma[a] >= 0.0) return gamma;
+    }
+    const double determinant = K[1][1] * K[0][0] - K[1][0] * K[0][1];
+    if (!(determinant > 1e-12 * K[1][1] * K[0][0])) return {};
+    const Points gamma{(K[0][1] * without[1] - K[1][1] * without[0]) / determinant,
+                       (K[1][0] * without[0] - K[0][0] * without[1]) / determinant};
+    if (gamma[0] >= 0.0 && gamma[1] >= 0.0) return gamma;
+    return {};
 }
 
 /// gamma that makes all three gap velocities vanish (Cramer's rule), or -1 where the three are dependent.
@@ -39,6 +59,12 @@ void solve_own_problem(const PairMatrix& pair, const Points& velocity, Points& t
     for (std::uint32_t a = 0; a < pair.count; ++a) {
         without[a] = velocity[a];
         for (std::uint32_t c = 0; c < pair.count; ++c) without[a] -= pair.matrix[a][c] * target[c];
+    }
+    if (pair.count == 2) {
+        if (const auto gamma = of_two_points(pair, without)) {
+            target = *gamma;
+            return;
+        }
     }
     Points best{};
     double least = violation(pair, without, best);
