@@ -261,8 +261,9 @@ ExitCode resume_run(const RunOptions& options, const Scene& scene, const std::st
                          springs_path(scene, options.scene));
     const StepSums sums = StepSums::from_numbers(checkpoint.accumulators);
     RunFiles files(directory, scene, resolved, checkpoint);
-    Simulation simulation = assemble(scene, checkpoint.box, std::move(checkpoint.rods),
-                                     {checkpoint.step, checkpoint.time}, std::move(checkpoint.springs));
+    Simulation simulation =
+        assemble(scene, checkpoint.box, std::move(checkpoint.rods), {checkpoint.step, checkpoint.time},
+                 std::move(checkpoint.springs), std::move(checkpoint.last_forces));
     if (!options.quiet && !options.json)
         std::fprintf(stderr, "jostle: going on from step %llu\n", static_cast<unsigned long long>(checkpoint.step));
     return Run(options, scene, resolved, simulation, files, directory, sums).go();

@@ -23,7 +23,7 @@ def runs(quick):
                        # A little noise lets the line of the first daughters buckle.
                        "fluid": {"kT": 0.001}, "contact": {"brownian_correction": False},
                        "growth": {"rate": 1.0, "rate_deviation": 0.1, "division_length": 5.0, "division_deviation": 0.1},
-                       "solver": {"tolerance": 1e-4}, "time": {"step": TIME_STEP},
+                       "solver": {"tolerance": 1e-3}, "time": {"step": TIME_STEP},
                        "output": {"series_every": 10, "trajectory_every": round(FRAME_EVERY / TIME_STEP)}},
                 equilibration=0, production=round(end / TIME_STEP))]
 

@@ -62,7 +62,7 @@ SimulationInPython::SimulationInPython(SceneInPython scene)
 SimulationInPython::SimulationInPython(SceneInPython scene, Checkpoint checkpoint)
     : scene_(std::move(scene)),
       simulation_(assemble(scene_.scene, checkpoint.box, std::move(checkpoint.rods), {checkpoint.step, checkpoint.time},
-                           std::move(checkpoint.springs))),
+                           std::move(checkpoint.springs), std::move(checkpoint.last_forces))),
       sums_(StepSums::from_numbers(checkpoint.accumulators)) {}
 
 void SimulationInPython::step() {

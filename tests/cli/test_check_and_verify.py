@@ -93,8 +93,8 @@ def test_defaults_are_spelled_out(tmp_path):
     assert set(scene) == {"title", "seed", "units", "box", "rods", "fluid", "mobility", "motion", "growth", "contact",
                           "solver",
                           "time", "output"}
-    assert scene["solver"] == {"method": "auto", "step_rule": "bb1", "residual": "length", "tolerance": 1e-5,
-                               "max_iterations": 10000}
+    assert scene["solver"] == {"method": "auto", "warm_start": "auto", "step_rule": "bb1", "residual": "length",
+                               "tolerance": 1e-5, "max_iterations": 10000}
     assert scene["contact"] == {"model": "hard", "brownian_correction": True, "range": "auto", "overlap_limit": 0.2}
     assert run(tmp_path).returncode == DONE
     resolved = (tmp_path / "run/resolved.toml").read_text()

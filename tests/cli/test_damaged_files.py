@@ -64,9 +64,10 @@ def test_checkpoint_of_another_version(torn_copy):
     path = torn_copy / "run/checkpoint"
     content = bytearray(path.read_bytes()[:-8])
     assert sealed(content) == path.read_bytes(), "the checksum is that of the format"
-    content[8] = 4
+    other, this = content[8] + 1, content[8]
+    content[8] = other
     path.write_bytes(sealed(content))
-    refuse(torn_copy, "run/checkpoint: the checkpoint has format version 4, this jostle reads version 3")
+    refuse(torn_copy, f"run/checkpoint: the checkpoint has format version {other}, this jostle reads version {this}")
 
 
 @pytest.mark.parametrize("left", [0, 7, HEADER, 100, 0.5, -9, -1])

@@ -16,7 +16,7 @@ namespace {
 
 // The first byte is no text and the last is a newline, so that a file mangled as text no longer matches.
 constexpr std::string_view magic = "\x89JOSTLE\n";
-constexpr std::uint32_t format_version = 3;
+constexpr std::uint32_t format_version = 4;
 constexpr std::size_t header_bytes = 24;
 constexpr std::size_t checksum_bytes = 8;
 constexpr const char* start_again = "Start the run again with --fresh";
@@ -104,6 +104,32 @@ std::vector<Spring> take_springs(ByteReader& reader) {
     return springs;
 }
 
+void put_forces(Payload& writer, const std::vector<LastForce>& forces) {
+    writer.put(static_cast<std::uint64_t>(forces.size()));
+    for (const LastForce& force : forces) {
+        writer.put(force.i);
+        writer.put(force.j);
+        writer.put(static_cast<std::uint8_t>(force.feature));
+        writer.put(force.gamma);
+    }
+}
+
+std::vector<LastForce> take_forces(ByteReader& reader, std::size_t rods) {
+    std::vector<LastForce> forces;
+    for (auto left = reader.take<std::uint64_t>(); left > 0; --left) {
+        LastForce force;
+        force.i = reader.take<std::uint32_t>();
+        force.j = reader.take<std::uint32_t>();
+        const auto feature = reader.take<std::uint8_t>();
+        force.gamma = reader.take<double>();
+        if (force.i > force.j || force.j >= rods || feature > static_cast<std::uint8_t>(ContactFeature::end_of_j))
+            throw std::out_of_range("a contact force of rods that are not there");
+        force.feature = static_cast<ContactFeature>(feature);
+        forces.push_back(force);
+    }
+    return forces;
+}
+
 Payload payload_of(const Checkpoint& checkpoint) {
     Payload writer;
     writer.put_text(checkpoint.scene);
@@ -113,6 +139,7 @@ Payload payload_of(const Checkpoint& checkpoint) {
     for (const bool periodic : checkpoint.box.periodic) writer.put(static_cast<std::uint8_t>(periodic));
     put_rods(writer, checkpoint.rods);
     put_springs(writer, checkpoint.springs);
+    put_forces(writer, checkpoint.last_forces);
     writer.put(static_cast<std::uint64_t>(checkpoint.accumulators.size()));
     writer.put_elements(checkpoint.accumulators);
     writer.put(checkpoint.series_rows);
@@ -138,6 +165,7 @@ Checkpoint from_payload(std::string_view payload) {
     for (bool& periodic : checkpoint.box.periodic) periodic = reader.take<std::uint8_t>() != 0;
     checkpoint.rods = take_rods(reader);
     checkpoint.springs = take_springs(reader);
+    checkpoint.last_forces = take_forces(reader, checkpoint.rods.size());
     const auto accumulator_count = reader.take<std::uint64_t>();
     reader.take_elements(accumulator_count, checkpoint.accumulators);
     checkpoint.series_rows = reader.take<std::uint64_t>();

@@ -8,6 +8,7 @@
 #include "jostle/rods/box.hpp"
 #include "jostle/rods/rods.hpp"
 #include "jostle/rods/spring.hpp"
+#include "jostle/simulation/warm_start.hpp"
 
 namespace jostle {
 
@@ -19,6 +20,7 @@ struct Checkpoint {
     Box box;                             ///< at that time
     Rods rods;                           ///< at that time, double precision
     std::vector<Spring> springs;         ///< between them, with the images that they hold
+    std::vector<LastForce> last_forces;  ///< that the next step begins from, if any
     std::vector<double> accumulators;    ///< running sums of the run; their order is the simulation's own
     std::uint64_t series_rows = 0;       ///< rows of series.csv, without the header
     std::uint64_t series_bytes = 0;      ///< length of series.csv, with the header

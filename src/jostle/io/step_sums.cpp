@@ -109,6 +109,7 @@ Checkpoint checkpoint_of(const Simulation& simulation, const StepSums& sums, std
     checkpoint.box = simulation.box();
     checkpoint.rods = simulation.rods();
     checkpoint.springs = simulation.settings().springs;
+    checkpoint.last_forces = simulation.last_forces();
     checkpoint.accumulators = sums.to_numbers();
     return checkpoint;
 }

@@ -136,6 +136,14 @@ void set_springs(const Scene& scene, const Rods& rods, const Mobility& mobility,
     settings.springs = std::move(springs);
 }
 
+/// "auto": forces hardly change from step to step where noise moves rods less than growth does. It gains nothing where
+/// noise is stronger, even if swimmers crowd.
+bool starts_warm(const Scene& scene, double fastest_diffusion, double time_step) {
+    if (scene.contact.model == ContactModel::wca) return false;
+    if (scene.solver.warm_start != WarmStarts::automatic) return scene.solver.warm_start == WarmStarts::always;
+    return std::sqrt(2.0 * fastest_diffusion * time_step) <= scene.growth.rate * time_step;
+}
+
 void set_growth(const Scene& scene, SimulationSettings& settings) {
     settings.growth = scene.growth;
     settings.founder_bits = scene.rods.start == StartKind::file
@@ -162,7 +170,8 @@ void require_slow_springs(const Scene& scene, double relaxation, double time_ste
                       .suggestion = "Use a shorter time.step or softer springs"});
 }
 
-Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock, std::vector<Spring> springs) {
+Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock, std::vector<Spring> springs,
+                    std::vector<LastForce> last_forces) {
     auto mobility = make_mobility(scene, rods);
     SimulationSettings settings;
     settings.seed = scene.seed;
@@ -178,6 +187,8 @@ Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock, 
     settings.stress_conventions = scene.output.stress_conventions;
     settings.collision_moments = scene.output.stress_per_rod || scene.output.field_every > 0;
     settings.method = scene.solver.method;
+    settings.warm_start =
+        starts_warm(scene, fastest_diffusion(settings.kT, *mobility, rods.size()), settings.time_step);
     const bool paper = scene.solver.residual == ResidualKind::paper;
     settings.lcp.residual = paper ? LcpResidual::paper : LcpResidual::length;
     settings.lcp.tolerance = paper ? scene.solver.tolerance : scene.solver.tolerance * scene.rods.diameter;
@@ -190,7 +201,8 @@ Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock, 
     std::vector<std::unique_ptr<Motion>> motions;
     if (settings.kT > 0.0) motions.push_back(std::make_unique<BrownianMotion>(settings.kT, *mobility));
     if (scene.motion.self_propulsion != 0.0) motions.push_back(std::make_unique<SelfPropulsion>(swimming_of(scene)));
-    return Simulation(box, std::move(rods), clock, std::move(mobility), std::move(motions), settings);
+    return Simulation(box, std::move(rods), clock, std::move(mobility), std::move(motions), settings,
+                      std::move(last_forces));
 }
 
 }  // namespace jostle

@@ -46,7 +46,9 @@ std::optional<StressField> make_field(const Scene& scene, const Box& box);
 void require_slow_springs(const Scene& scene, double relaxation, double time_step);
 
 /// A simulation of a scene that starts at, or goes on from, the given state. `springs`: of `scene.springs.file`, with
-/// their images. Errors: InputError, also if that file is named and there are no springs.
-Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock, std::vector<Spring> springs = {});
+/// their images. `last_forces`: of the state, Simulation::last_forces. Errors: InputError, also if that file is named
+/// and there are no springs.
+Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock, std::vector<Spring> springs = {},
+                    std::vector<LastForce> last_forces = {});
 
 }  // namespace jostle

@@ -38,6 +38,7 @@ SolverOutcome solve_contact_problem(const ContactProblem& problem, SolverMethod 
                                     ContactSolution& solution) {
     const DelassusOperator& matrix = problem.matrix;
     solution = {};
+    solution.gamma = problem.start;
     if (method == SolverMethod::automatic)
         method = matrix.couples_rods() ? SolverMethod::adaptive_bb : SolverMethod::projected_sor;
     if (method == SolverMethod::projected_sor) {
@@ -51,9 +52,9 @@ SolverOutcome solve_contact_problem(const ContactProblem& problem, SolverMethod 
     SolverOutcome outcome;
     do {
         solution.resize(matrix.contact_matrix());
-        const bool again = outcome.solves > 0;
+        const bool from_zero = outcome.solves == 0 && problem.start.empty();
         LcpResult result =
-            solve_lcp(problem.lcp(), method, settings, again ? solution.gamma : std::span<const double>{});
+            solve_lcp(problem.lcp(), method, settings, from_zero ? std::span<const double>{} : solution.gamma);
         solution.gamma = std::move(result.solution);
         matrix.velocities(solution.gamma, solution.forces, solution.velocities);
         outcome = {result.status, result.residual, outcome.iterations + result.iterations, outcome.solves + 1};

@@ -29,6 +29,7 @@ struct ContactProblem {
     /// Given forces and velocities, appends contacts that were missed (to matrix and b), and says whether there were
     /// any. `final`: the search must be thorough, the result will stand. May be empty.
     std::function<bool(const ContactSolution& solution, bool final)> add_missed;
+    std::vector<double> start = {};  ///< (contacts) gamma to begin from; empty: from 0
 
     LcpProblem lcp() const { return {matrix, constant, time_step}; }
 };
@@ -44,7 +45,7 @@ struct SolverOutcome {
 /// Solves a contact problem by the method asked for; "auto" is projected SOR where the mobility does not couple rods,
 /// else adaptive Barzilai-Borwein descent.
 ///
-/// Starts from gamma = 0. Every method stops at the same residual, verified over all contacts, so results agree to the
+/// Every method stops at the same residual, verified over all contacts, so results agree to the
 /// tolerance. Throws InputError if projected SOR is asked for with a mobility that couples rods.
 SolverOutcome solve_contact_problem(const ContactProblem& problem, SolverMethod method, const LcpSettings& settings,
                                     ContactSolution& solution);

@@ -15,6 +15,7 @@ enum class StartKind { random, aligned, lattice, file };
 enum class MobilityModel { slender_body, finite_aspect_ratio };
 enum class ContactModel { hard, wca };
 enum class SolverMethod { automatic, projected_sor, bbpgd, adaptive_bb, apgd, minimum_map_newton };
+enum class WarmStarts { automatic, always, never };
 enum class StepRule { bb1, bb2, alternating };
 enum class ResidualKind { length, paper };
 
@@ -93,6 +94,7 @@ struct Scene {
 
     struct Solver {
         SolverMethod method = SolverMethod::automatic;
+        WarmStarts warm_start = WarmStarts::automatic;  // whether a step begins from the forces of the last one
         StepRule step_rule = StepRule::bb1;
         ResidualKind residual = ResidualKind::length;
         double tolerance = 1e-5;  // residual "length": largest remaining overlap per step, in D; "paper": its norm

@@ -105,6 +105,7 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("contact", "range", scene.contact.range, Quantity{dim::length, positive, true});
     visit("contact", "overlap_limit", scene.contact.overlap_limit, Quantity{dim::none, {0.0, 1.0, false, false}});
     visit("solver", "method", scene.solver.method, Plain{});
+    visit("solver", "warm_start", scene.solver.warm_start, Plain{});
     visit("solver", "step_rule", scene.solver.step_rule, Plain{});
     visit("solver", "residual", scene.solver.residual, Plain{});
     visit("solver", "tolerance", scene.solver.tolerance, Quantity{dim::none, {0.0, 0.1, false, false}});
@@ -159,6 +160,10 @@ constexpr auto words(SolverMethod) {
          {"adaptive_bb", SolverMethod::adaptive_bb},
          {"apgd", SolverMethod::apgd},
          {"minimum_map_newton", SolverMethod::minimum_map_newton}});
+}
+constexpr auto words(WarmStarts) {
+    return std::to_array<std::pair<std::string_view, WarmStarts>>(
+        {{"auto", WarmStarts::automatic}, {"always", WarmStarts::always}, {"never", WarmStarts::never}});
 }
 constexpr auto words(StepRule) {
     return std::to_array<std::pair<std::string_view, StepRule>>(

@@ -32,14 +32,16 @@ double mean_of(const std::vector<double>& values) {
 }  // namespace
 
 Simulation::Simulation(Box box, Rods rods, Clock clock, std::unique_ptr<Mobility> mobility,
-                       std::vector<std::unique_ptr<Motion>> motions, const SimulationSettings& settings)
+                       std::vector<std::unique_ptr<Motion>> motions, const SimulationSettings& settings,
+                       std::vector<LastForce> last_forces)
     : box_(box),
       rods_(std::move(rods)),
       clock_(clock),
       mobility_(std::move(mobility)),
       motions_(std::move(motions)),
       settings_(settings),
-      search_(margin * mean_of(rods_.diameter), settings.range) {
+      search_(margin * mean_of(rods_.diameter), settings.range),
+      warm_start_(std::move(last_forces)) {
     if (!(settings_.time_step > 0.0))
         throw InputError({.key = "time.step",
                           .value = std::to_string(settings_.time_step),
@@ -108,7 +110,13 @@ RodMotion Simulation::motion() const {
 void Simulation::renumber() {
     constexpr std::uint64_t every = 512;
     if (clock_.step % every != 0) return;
-    rods_ = reordered(rods_, space_filling_order(rods_, box_));
+    const std::vector<std::uint32_t> order = space_filling_order(rods_, box_);
+    rods_ = reordered(rods_, order);
+    if (settings_.warm_start) {
+        std::vector<std::uint32_t> new_row(order.size());
+        parallel_for(order.size(), [&](std::size_t row) { new_row[order[row]] = static_cast<std::uint32_t>(row); });
+        warm_start_.renumber(new_row);
+    }
     take_over_rods();
 }
 

@@ -12,6 +12,7 @@
 #include "jostle/rods/box.hpp"
 #include "jostle/simulation/contact_solver.hpp"
 #include "jostle/simulation/step_report.hpp"
+#include "jostle/simulation/warm_start.hpp"
 #include "jostle/stress/collision_moments.hpp"
 
 namespace jostle {
@@ -31,6 +32,7 @@ struct SimulationSettings {
     double range = 0.0;               ///< contacts with a smaller gap are always taken; 0: as the step demands
     SolverMethod method = SolverMethod::automatic;
     LcpSettings lcp;                  ///< tolerance as a length
+    bool warm_start = false;          ///< the solver begins from the forces of the last step
     bool stress_conventions = false;  ///< other conventions of the stress are measured, too
     bool collision_moments = false;   ///< the parts of the collision stress are kept, contact by contact
     std::vector<Spring> springs;      ///< between rods that stay: nothing may grow
@@ -40,13 +42,14 @@ struct SimulationSettings {
 
 /// Rods in a box, and the step that moves them.
 ///
-/// State (rods, clock) is apart from settings and results: a simulation made from the state of another goes on bit for
-/// bit as that one would have, for any number of threads. Neighbour list and contacts are only a cache. Rows of the
-/// rods change now and then, to keep neighbours near each other in memory; ids stay.
+/// State (rods, clock, last forces) is apart from settings and results: a simulation made from the state of another
+/// goes on bit for bit as that one would have, for any number of threads. Neighbour list and contacts are only a cache.
+/// Rows of the rods change now and then, to keep neighbours near each other in memory; ids stay.
 class Simulation {
 public:
     Simulation(Box box, Rods rods, Clock clock, std::unique_ptr<Mobility> mobility,
-               std::vector<std::unique_ptr<Motion>> motions, const SimulationSettings& settings);
+               std::vector<std::unique_ptr<Motion>> motions, const SimulationSettings& settings,
+               std::vector<LastForce> last_forces = {});
 
     /// Adds a motion, felt from the next step on, after those that are there.
     void add(std::unique_ptr<Motion> motion) { motions_.push_back(std::move(motion)); }
@@ -66,6 +69,8 @@ public:
     /// Of the last step, with the gaps before it.
     const Contacts& contacts() const { return contacts_; }
     const ContactSolution& contact_solution() const { return solution_; }
+    /// From which the next step begins; empty unless the settings ask for a warm start.
+    const std::vector<LastForce>& last_forces() const { return warm_start_.forces(); }
     /// The parts of its collision stress, if the settings ask for them.
     const CollisionMoments& collision_moments() const { return moments_; }
     /// Ids of the rows that these refer to: those of `rods()`, but where cells have died since.
@@ -83,6 +88,7 @@ private:
     void advance();
     void grow();
 
+    void keep_forces();
     void take_over_rods();
     void find_sizes();
     void find_allowances();
@@ -119,6 +125,7 @@ private:
     std::vector<Push> pushes_;  ///< (N) by contact forces; all 0 between steps
     Contacts contacts_;
     ContactSolution solution_;
+    WarmStart warm_start_;  ///< of the present rows
     CollisionMoments moments_;
 };
 

@@ -57,6 +57,7 @@ StepReport Simulation::step() {
     timer.finish(StepPhase::measure_stress);
     advance();
     grow();
+    if (settings_.warm_start) keep_forces();
     timer.finish(StepPhase::advance);
     return report;
 }
@@ -95,8 +96,9 @@ void Simulation::solve_contacts(StepReport& report) {
                                  mobility_->couples_rods() ? Include::all_rods : Include::rods_with_contacts);
     const double compliance = corrects_brownian_motion() ? contact_compliance : 0.0;
     DelassusOperator matrix(contact_matrix, rods_, *mobility_, compliance);
-    std::vector<double> b;
+    std::vector<double> b, start;
     extend_gap_velocities(b);
+    if (settings_.warm_start) start = warm_start_.guess(contacts_);
     const auto add_missed = [&](const ContactSolution& solution, bool final) {
         if (!add_missed_contacts(contact_matrix, solution, final)) return false;
         contact_matrix.extend();
@@ -104,8 +106,8 @@ void Simulation::solve_contacts(StepReport& report) {
         extend_gap_velocities(b);
         return true;
     };
-    const SolverOutcome outcome =
-        solve_contact_problem({matrix, b, settings_.time_step, add_missed}, settings_.method, settings_.lcp, solution_);
+    const SolverOutcome outcome = solve_contact_problem({matrix, b, settings_.time_step, add_missed, std::move(start)},
+                                                        settings_.method, settings_.lcp, solution_);
     report.status = outcome.status;
     report.residual = outcome.residual;
     report.iterations = outcome.iterations;
@@ -268,6 +270,17 @@ void Simulation::grow() {
         find_sizes();
     else
         take_over_rods();
+}
+
+// For the next step, of the rods that are still there.
+void Simulation::keep_forces() {
+    warm_start_.keep(contacts_, solution_.gamma);
+    if (lineage_.empty()) return;
+    std::vector<std::uint32_t> row_now(ids_before_.size(), WarmStart::no_row);
+    std::uint32_t row = 0;  // the living stay in order
+    for (std::size_t before = 0; before < ids_before_.size(); ++before)
+        if (row < rods_.size() && rods_.id[row] == ids_before_[before]) row_now[before] = row++;
+    warm_start_.renumber(row_now);
 }
 
 }  // namespace jostle

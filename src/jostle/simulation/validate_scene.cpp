@@ -411,8 +411,8 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
     const std::string with_model = fmt::format("is not used with contact.model = \"{}\"", word_of(scene.contact.model));
     if (!soft) unused.push_back({"contact.energy", with_model, "Set model = \"wca\", or remove energy"});
     if (soft)
-        for (const char* key : {"contact.brownian_correction", "contact.range", "solver.method", "solver.step_rule",
-                                "solver.residual", "solver.tolerance", "solver.max_iterations"})
+        for (const char* key : {"contact.brownian_correction", "contact.range", "solver.method", "solver.warm_start",
+                                "solver.step_rule", "solver.residual", "solver.tolerance", "solver.max_iterations"})
             unused.push_back({key, with_model + ": there is no contact problem", "Remove it"});
     if (scene.growth.rate == 0.0)
         for (const char* key :

@@ -29,6 +29,7 @@ Checkpoint two_rods(std::uint64_t step = 7) {
     checkpoint.rods.image[1] = {-1, 2, 2147483647};
     checkpoint.rods.speed = {0.5, -2.0};
     checkpoint.springs = {{3, 9, 2.5, -0.0, 1.0 / 3.0, 1e-300, {-1, 0, 7}}, {9, 3, 0.0, 0.1, 0.0, 5.0, {}}};
+    checkpoint.last_forces = {{0, 1, ContactFeature::end_of_j, 1.0 / 3.0}, {1, 1, ContactFeature::nearest, 1e-300}};
     checkpoint.accumulators = {1.5, -2.25, 1e-310};
     checkpoint.series_rows = 4;
     checkpoint.series_bytes = 321;
@@ -48,11 +49,12 @@ bool same(const Checkpoint& a, const Checkpoint& b) {
            a.box.periodic == b.box.periodic && a.rods.centre == b.rods.centre && a.rods.axis == b.rods.axis &&
            std::signbit(a.rods.centre[0].y) == std::signbit(b.rods.centre[0].y) && a.rods.length == b.rods.length &&
            a.rods.diameter == b.rods.diameter && a.rods.id == b.rods.id && a.rods.image == b.rods.image &&
-           a.rods.speed == b.rods.speed && a.springs == b.springs && a.accumulators == b.accumulators &&
-           a.series_rows == b.series_rows && a.series_bytes == b.series_bytes && a.series_hash == b.series_hash &&
-           a.trajectory_bytes == b.trajectory_bytes && a.contacts_bytes == b.contacts_bytes &&
-           a.contacts_hash == b.contacts_hash && a.field_bytes == b.field_bytes && a.field_hash == b.field_hash &&
-           a.lineage_bytes == b.lineage_bytes && a.lineage_hash == b.lineage_hash;
+           a.rods.speed == b.rods.speed && a.springs == b.springs && a.last_forces == b.last_forces &&
+           a.accumulators == b.accumulators && a.series_rows == b.series_rows && a.series_bytes == b.series_bytes &&
+           a.series_hash == b.series_hash && a.trajectory_bytes == b.trajectory_bytes &&
+           a.contacts_bytes == b.contacts_bytes && a.contacts_hash == b.contacts_hash &&
+           a.field_bytes == b.field_bytes && a.field_hash == b.field_hash && a.lineage_bytes == b.lineage_bytes &&
+           a.lineage_hash == b.lineage_hash;
 }
 
 }  // namespace

@@ -88,8 +88,12 @@ private:
         }
         scene.contact.brownian_correction = chance();
         if (chance()) scene.contact.range = number(1e-9, 1e9);
-        scene.solver = {chance() ? SolverMethod::automatic : SolverMethod::bbpgd, static_cast<StepRule>(random_() % 3),
-                        static_cast<ResidualKind>(random_() % 2), number(1e-12, 0.09), 1 + random_() % 1000000};
+        scene.solver = {chance() ? SolverMethod::automatic : SolverMethod::bbpgd,
+                        static_cast<WarmStarts>(random_() % 3),
+                        static_cast<StepRule>(random_() % 3),
+                        static_cast<ResidualKind>(random_() % 2),
+                        number(1e-12, 0.09),
+                        1 + random_() % 1000000};
     }
 
     void draw_rods(Scene& scene) {

@@ -102,7 +102,8 @@ TEST_CASE("a run taken up from its state between two divisions goes on bit for b
     scene.growth.death_rate = 0.01;
     Simulation whole = assemble(scene, open_space, one_cell(), {});
     for (int step = 0; step < 1111; ++step) whole.step();
-    Simulation again = assemble(scene, open_space, whole.rods(), whole.clock());
+    CHECK(!whole.last_forces().empty());
+    Simulation again = assemble(scene, open_space, whole.rods(), whole.clock(), {}, whole.last_forces());
     for (int step = 0; step < 400; ++step) {
         whole.step();
         again.step();

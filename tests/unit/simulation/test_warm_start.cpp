@@ -1,0 +1,111 @@
+// Steps that begin from the contact forces of the last one.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "jostle/simulation/assemble.hpp"
+#include "jostle/simulation/warm_start.hpp"
+
+using namespace jostle;
+
+namespace {
+
+void add(Contacts& contacts, std::uint32_t i, std::uint32_t j, ContactFeature feature) {
+    Contact contact;
+    contact.i = i;
+    contact.j = j;
+    contacts.push_back(contact, {}, feature);
+}
+
+Contacts three_contacts() {
+    Contacts contacts;
+    add(contacts, 0, 2, ContactFeature::nearest);
+    add(contacts, 1, 2, ContactFeature::end_of_i);
+    add(contacts, 1, 2, ContactFeature::end_of_j);
+    return contacts;
+}
+
+/// Cells that grow into each other in open space, without noise but for what lets their line buckle.
+Scene colony(WarmStarts warm_start) {
+    Scene scene;
+    scene.seed = 5;
+    scene.rods.count = 1;
+    scene.rods.length = 2.0;
+    scene.fluid.kT = 0.001;
+    scene.contact.brownian_correction = false;
+    scene.time.step = 0.01;
+    scene.growth.rate = 1.0;
+    scene.growth.rate_deviation = 0.1;
+    scene.growth.division_length = 5.0;
+    scene.solver.warm_start = warm_start;
+    return scene;
+}
+
+constexpr Box open_space = {{1000, 1000, 1000}, {false, false, false}};
+
+Rods one_cell() {
+    Rods rods;
+    rods.push_back(0, {500, 500, 500}, {1, 0, 0}, 2.0, 1.0);
+    return rods;
+}
+
+}  // namespace
+
+TEST_CASE("a contact begins with the force of the same feature of the same rods, others with none") {
+    WarmStart warm_start;
+    Contacts contacts = three_contacts();
+    CHECK(warm_start.guess(contacts).empty());
+    warm_start.keep(contacts, std::vector{1.5, 0.0, 2.5});
+    CHECK(warm_start.forces().size() == 2);  // forces of 0 need not be known
+
+    add(contacts, 1, 3, ContactFeature::nearest);
+    add(contacts, 0, 2, ContactFeature::end_of_i);
+    CHECK(warm_start.guess(contacts) == std::vector{1.5, 0.0, 2.5, 0.0, 0.0});
+}
+
+TEST_CASE("forces follow their rods to other rows, and go with those that are gone") {
+    WarmStart warm_start;
+    const Contacts contacts = three_contacts();
+    warm_start.keep(contacts, std::vector{1.5, 3.5, 2.5});
+    warm_start.renumber(std::vector<std::uint32_t>{WarmStart::no_row, 4, 1});
+    const std::vector<LastForce> expected = {{1, 4, ContactFeature::end_of_i, 2.5},   // i was row 1, and is row 4
+                                             {1, 4, ContactFeature::end_of_j, 3.5}};  // as j
+    CHECK(warm_start.forces() == expected);
+    CHECK(WarmStart({expected[1], expected[0]}).forces() == expected);
+}
+
+TEST_CASE("warm and cold starts find the same velocities of a dense colony, the warm one in fewer sweeps") {
+    Simulation warm = assemble(colony(WarmStarts::automatic), open_space, one_cell(), {});
+    CHECK(warm.settings().warm_start);
+    while (warm.rods().size() < 300) warm.step();
+    std::uint64_t warm_sweeps = 0, cold_sweeps = 0;
+    for (int step = 0; step < 20; ++step) {
+        Simulation cold = assemble(colony(WarmStarts::never), open_space, warm.rods(), warm.clock());
+        cold_sweeps += cold.step().iterations;
+        warm_sweeps += warm.step().iterations;
+        CHECK(cold.last_forces().empty());
+        REQUIRE(cold.rods().id == warm.rods().id);
+        double farthest = 0.0;
+        for (std::size_t i = 0; i < warm.rods().size(); ++i)
+            farthest = std::max(farthest, norm(warm.rods().centre[i] - cold.rods().centre[i]));
+        CHECK(farthest < 1e-3);  // the tolerance is 1e-5, added up along chains of cells
+    }
+    MESSAGE("sweeps: ", warm_sweeps, " warm, ", cold_sweeps, " cold");
+    CHECK(warm_sweeps < cold_sweeps);
+}
+
+TEST_CASE("auto begins warm without noise, or where growth is stronger") {
+    Scene scene = colony(WarmStarts::automatic);
+    const auto is_warm = [&] { return assemble(scene, open_space, one_cell(), {}).settings().warm_start; };
+    CHECK(is_warm());
+    scene.fluid.kT = 1.0;
+    CHECK(!is_warm());
+    scene.growth = {};
+    scene.fluid.kT = 0.001;
+    CHECK(!is_warm());
+    scene.motion.brownian = false;
+    CHECK(is_warm());
+    scene.solver.warm_start = WarmStarts::never;
+    CHECK(!is_warm());
+}
