@@ -29,6 +29,7 @@ enum class ContactFeature : std::uint8_t {
     nearest,   ///< the nearest points of the two segments
     end_of_i,  ///< the end of segment i at arm_i, and the point of segment j nearest to it
     end_of_j,  ///< the end of segment j at arm_j, and the point of segment i nearest to it
+    pushed,    ///< the points that are nearest once contact forces have pushed the rods (pushed_overlaps.hpp)
 };
 
 /// Contacts found, in the order of (i, j, image, feature): the same for any thread count and any neighbour list.

@@ -89,6 +89,7 @@ double gap_of_contact(const Contact& contact, ContactFeature feature, const Pair
     Vec3 separation;
     switch (feature) {
         case ContactFeature::nearest:
+        case ContactFeature::pushed:
             separation = nearest_points(pair).separation;
             break;
         case ContactFeature::end_of_i:

@@ -136,11 +136,9 @@ void set_springs(const Scene& scene, const Rods& rods, const Mobility& mobility,
     settings.springs = std::move(springs);
 }
 
-/// "auto": forces hardly change from step to step where noise moves rods less than growth does. It gains nothing where
-/// noise is stronger, even if swimmers crowd.
-bool starts_warm(const Scene& scene, double fastest_diffusion, double time_step) {
-    if (scene.contact.model == ContactModel::wca) return false;
-    if (scene.solver.warm_start != WarmStarts::automatic) return scene.solver.warm_start == WarmStarts::always;
+/// Where noise moves rods less in a step than growth does, contact forces hardly change from step to step, and may grow
+/// large.
+bool noise_is_weak(const Scene& scene, double fastest_diffusion, double time_step) {
     return std::sqrt(2.0 * fastest_diffusion * time_step) <= scene.growth.rate * time_step;
 }
 
@@ -187,8 +185,13 @@ Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock, 
     settings.stress_conventions = scene.output.stress_conventions;
     settings.collision_moments = scene.output.stress_per_rod || scene.output.field_every > 0;
     settings.method = scene.solver.method;
-    settings.warm_start =
-        starts_warm(scene, fastest_diffusion(settings.kT, *mobility, rods.size()), settings.time_step);
+    if (scene.contact.model == ContactModel::hard) {
+        settings.look_again =
+            noise_is_weak(scene, fastest_diffusion(settings.kT, *mobility, rods.size()), settings.time_step);
+        settings.warm_start = scene.solver.warm_start == WarmStarts::automatic
+                                  ? settings.look_again
+                                  : scene.solver.warm_start == WarmStarts::always;
+    }
     const bool paper = scene.solver.residual == ResidualKind::paper;
     settings.lcp.residual = paper ? LcpResidual::paper : LcpResidual::length;
     settings.lcp.tolerance = paper ? scene.solver.tolerance : scene.solver.tolerance * scene.rods.diameter;

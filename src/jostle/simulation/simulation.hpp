@@ -33,6 +33,7 @@ struct SimulationSettings {
     SolverMethod method = SolverMethod::automatic;
     LcpSettings lcp;                  ///< tolerance as a length
     bool warm_start = false;          ///< the solver begins from the forces of the last step
+    bool look_again = false;          ///< no pair in contact may overlap for being turned far in one step
     bool stress_conventions = false;  ///< other conventions of the stress are measured, too
     bool collision_moments = false;   ///< the parts of the collision stress are kept, contact by contact
     std::vector<Spring> springs;      ///< between rods that stay: nothing may grow
@@ -96,6 +97,8 @@ private:
     double shift_of(const Contact& contact) const;
     void extend_gap_velocities(std::vector<double>& b) const;
     bool add_missed_contacts(const ContactMatrix& contact_matrix, const ContactSolution& solution, bool final);
+    bool add_pushed_contacts(const ContactMatrix& contact_matrix, const ContactSolution& solution);
+    RodAfter places_after(const ContactMatrix& contact_matrix, const ContactSolution& solution) const;
     bool corrects_brownian_motion() const { return settings_.brownian_correction && settings_.kT > 0.0; }
     const std::vector<Vec3>& turned_half_way();
     Vec3 turned_by_springs(std::uint32_t row) const;

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <tuple>
 
+#include "jostle/contact/pushed_overlaps.hpp"
 #include "jostle/contact/wca_forces.hpp"
 #include "jostle/math/rotation.hpp"
 #include "jostle/parallel/parallel_for.hpp"
@@ -31,6 +32,11 @@ private:
     StepReport& report_;
     Clock::time_point last_;
 };
+
+/// Pairs in contact may overlap by as much, in D, where contact forces turn them far in one step.
+constexpr double most_pushed_overlap = 0.01;
+/// So often, and no more, are their overlaps looked for in one step.
+constexpr int most_looks = 5;
 
 }  // namespace
 
@@ -99,8 +105,11 @@ void Simulation::solve_contacts(StepReport& report) {
     std::vector<double> b, start;
     extend_gap_velocities(b);
     if (settings_.warm_start) start = warm_start_.guess(contacts_);
+    int looks = settings_.look_again ? most_looks : 0;
     const auto add_missed = [&](const ContactSolution& solution, bool final) {
-        if (!add_missed_contacts(contact_matrix, solution, final)) return false;
+        if (!add_missed_contacts(contact_matrix, solution, final) &&
+            !(final && looks-- > 0 && add_pushed_contacts(contact_matrix, solution)))
+            return false;
         contact_matrix.extend();
         matrix.extend();
         extend_gap_velocities(b);
@@ -135,7 +144,7 @@ void Simulation::extend_gap_velocities(std::vector<double>& b) const {
     parallel_for(b.size() - known, [&](std::size_t k) {
         const std::size_t l = known + k;
         const Contact& contact = contacts_.contact[l];
-        if (settings_.brownian_correction) {
+        if (settings_.brownian_correction || contacts_.feature[l] == ContactFeature::pushed) {
             b[l] = contact.room / dt;
             return;
         }
@@ -155,6 +164,15 @@ std::pair<Vec3, Vec3> Simulation::pushed(std::uint32_t row, const ContactVelocit
             rotated(axis, dt * (known_.angular[row] + cross(axis, velocity.turning)))};
 }
 
+// Where forces take the rods: those without contacts, where the known motion does.
+RodAfter Simulation::places_after(const ContactMatrix& contact_matrix, const ContactSolution& solution) const {
+    return [&](std::uint32_t row) -> std::pair<Vec3, Vec3> {
+        const std::uint32_t place = contact_matrix.place_of(row);
+        if (place == ContactMatrix::no_place) return {moved_.centre[row], moved_.axis[row]};
+        return pushed(row, solution.velocities[place]);
+    };
+}
+
 // Rods may be pushed into others that were no contacts. Says whether there were such, and makes them contacts.
 bool Simulation::add_missed_contacts(const ContactMatrix& contact_matrix, const ContactSolution& solution, bool final) {
     const double dt = settings_.time_step;
@@ -171,14 +189,28 @@ bool Simulation::add_missed_contacts(const ContactMatrix& contact_matrix, const 
         pushes_[row] = {in_float(centre), in_float(end), static_cast<float>(farthest + rounding),
                         static_cast<float>(twist + rounding)};
     });
-    const RodAfter after = [&](std::uint32_t row) -> std::pair<Vec3, Vec3> {
-        const std::uint32_t place = contact_matrix.place_of(row);
-        if (place == ContactMatrix::no_place) return {moved_.centre[row], moved_.axis[row]};
-        return pushed(row, solution.velocities[place]);
-    };
-    const auto missed = search_.missed_pairs(rods_, box_, motion(), contacts_, rows, pushes_, after, final);
+    const auto missed = search_.missed_pairs(rods_, box_, motion(), contacts_, rows, pushes_,
+                                             places_after(contact_matrix, solution), final);
     search_.add(missed, rods_, box_, motion(), contacts_);
     return !missed.empty();
+}
+
+// Not in the paper (theory, eq. 2.18): the problem again, linear about where its solution takes those rods that would
+// overlap there.
+bool Simulation::add_pushed_contacts(const ContactMatrix& contact_matrix, const ContactSolution& solution) {
+    const Contacts pushed = pushed_overlaps(contacts_, rods_, box_, places_after(contact_matrix, solution),
+                                            most_pushed_overlap * mean_diameter_);
+    const auto point_velocity = [&](std::uint32_t row, double arm) {
+        const ContactVelocity& velocity = solution.velocities[contact_matrix.place_of(row)];
+        return velocity.centre + arm * velocity.turning;
+    };
+    for (std::size_t l = 0; l < pushed.size(); ++l) {
+        Contact contact = pushed.contact[l];
+        contact.room -= settings_.time_step * dot(contact.normal, point_velocity(contact.j, contact.arm_j) -
+                                                                      point_velocity(contact.i, contact.arm_i));
+        contacts_.push_back(contact, pushed.image[l], ContactFeature::pushed);
+    }
+    return pushed.size() > 0;
 }
 
 // Theory 1: the sum over contacts of (r_j - r_i) F, and over rods of the geometric part of the net torque. With the

@@ -25,6 +25,7 @@ ContactFeature seen_from_the_other_rod(ContactFeature feature) {
         case ContactFeature::end_of_j:
             return ContactFeature::end_of_i;
         case ContactFeature::nearest:
+        case ContactFeature::pushed:
             break;
     }
     return feature;
@@ -39,7 +40,7 @@ WarmStart::WarmStart(std::vector<LastForce> forces) : forces_(std::move(forces))
 void WarmStart::keep(const Contacts& contacts, std::span<const double> gamma) {
     forces_.clear();
     for (std::size_t l = 0; l < gamma.size(); ++l)
-        if (gamma[l] > 0.0)
+        if (gamma[l] > 0.0 && contacts.feature[l] != ContactFeature::pushed)  // no step begins with those
             forces_.push_back({contacts.contact[l].i, contacts.contact[l].j, contacts.feature[l], gamma[l]});
     sort(forces_);  // contacts that were missed at first come last
 }

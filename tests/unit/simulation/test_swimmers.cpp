@@ -7,7 +7,9 @@
 #include <string>
 
 #include "../contact/assemblies.hpp"
+#include "jostle/contact/pair_contacts.hpp"
 #include "jostle/error/input_error.hpp"
+#include "jostle/rods/space_filling_order.hpp"
 #include "jostle/simulation/assemble.hpp"
 #include "jostle/simulation/start.hpp"
 
@@ -40,6 +42,33 @@ std::string refused_key(const Scene& scene) {
 }
 
 }  // namespace
+
+TEST_CASE("a rod that is turned far in one step does not end up inside another") {
+    //           | 2        swims down by 2 D in one step, and turns 1 about its lower end, until the upper one comes to
+    //           lie on 0:
+    //       .-' v          there they did not touch before
+    //   .-'     1
+    //   ========= 0
+    Scene scene;
+    scene.motion.brownian = false;
+    scene.motion.self_propulsion = 2.0;
+    scene.time.step = 1.0;
+    const double sine = 0.35, cosine = std::sqrt(1.0 - sine * sine);
+    Rods rods;
+    rods.push_back(0, {10, 10, 10}, {1, 0, 0}, 4.0, 1.0);
+    rods.push_back(1, {8.2 + 2.0 * cosine, 10, 11 + 2.0 * sine}, {cosine, 0, sine}, 4.0, 1.0);
+    rods.push_back(2, {11.5, 10, 14.3}, {0, 0, -1}, 2.0, 1.0);
+    rods.speed = {0.0, 0.0, 2.0};
+    Simulation simulation = assemble(scene, {{20, 20, 20}, {true, true, true}}, rods, {});
+    const StepReport report = simulation.step();
+    CHECK(report.status == LcpStatus::converged);
+    CHECK(report.solves > 1);  // without another look: one solution, and an overlap of 1 D
+    const Rods after = reordered(simulation.rods(), id_order(simulation.rods()));
+    MESSAGE("solutions ", report.solves, ", gaps ", pair_gap(pair_geometry(after, 0, 1, {}, after.centre, after.axis)),
+            " ", pair_gap(pair_geometry(after, 1, 2, {}, after.centre, after.axis)), ", turned to ", after.axis[1].z);
+    for (const auto& [i, j] : {std::pair{0, 1}, {1, 2}})
+        CHECK(pair_gap(pair_geometry(after, i, j, {}, after.centre, after.axis)) > -0.01 - 1e-5);
+}
 
 TEST_CASE("two rods head-on: they stop at touching, and push with U_0/mu_parallel") {
     //  ====> <====   U_0 = 2, dt = 0.01, kT = 0
