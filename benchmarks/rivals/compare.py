@@ -218,7 +218,7 @@ def standard_error(values):
 def read_reference():
     with open(REFERENCE, newline="") as file:
         return {round(float(row["phi"]), 4): float(row["Z"]) for row in csv.DictReader(file)
-                if row["start"] == "isotropic"}
+                if row["start"] == "isotropic" and float(row["L_over_D"]) == LENGTH}
 
 
 @dataclasses.dataclass

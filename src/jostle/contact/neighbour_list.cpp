@@ -20,7 +20,8 @@ constexpr std::size_t cells_per_block = 16;
 /// is far below this; nearly parallel rods have the largest, some 3e-5.
 constexpr double float_error = 2e-4;
 
-constexpr double units_per_skin = 65535.0;
+/// Gaps in the list are counted in these; the widest fits 16 bits.
+constexpr float units_per_skin = 65535.0F;
 
 /// Pairs (i, j, image) of some rods i, one rod after the other; gap and image as the list holds them.
 struct NewPairs {
@@ -148,7 +149,7 @@ public:
 
 private:
     std::uint16_t in_units(float gap) const {
-        return static_cast<std::uint16_t>(std::clamp((gap - error_) * units_per_length_, 0.0F, 65535.0F));
+        return static_cast<std::uint16_t>(std::clamp((gap - error_) * units_per_length_, 0.0F, units_per_skin));
     }
 
     /// The rods within range of the box that encloses the centres of `homes`.
@@ -202,7 +203,7 @@ void NeighbourList::widen(const Rods& rods, const Box& box, std::span<const doub
     bool reaches_too_far = built_while_widened_;
     for (const auto& [row, beyond] : farther) {
         extent_[row] += in_units(beyond);
-        reaches_too_far = reaches_too_far || extent_[row] > in_units(0.5 * skin_);
+        reaches_too_far = reaches_too_far || extent_[row] >= in_units(0.5 * skin_);  // both rounded up
     }
     if (!reaches_too_far) return;
     std::vector<double> needed(reach.begin(), reach.end());
