@@ -136,10 +136,11 @@ void set_springs(const Scene& scene, const Rods& rods, const Mobility& mobility,
     settings.springs = std::move(springs);
 }
 
-/// Where noise moves rods less in a step than growth does, contact forces hardly change from step to step, and may grow
-/// large.
-bool noise_is_weak(const Scene& scene, double fastest_diffusion, double time_step) {
-    return std::sqrt(2.0 * fastest_diffusion * time_step) <= scene.growth.rate * time_step;
+/// Where noise moves even spheres less in a step than cells grow, contact forces hardly change from step to step, and
+/// may become large. A function of the scene alone, so that a run goes on as it began.
+bool noise_is_weak(const Scene& scene, double time_step) {
+    const RodMobility sphere = finite_aspect_ratio_drag(0.0, scene.rods.diameter, scene.fluid.viscosity);
+    return std::sqrt(2.0 * thermal_energy(scene) * sphere.parallel * time_step) <= scene.growth.rate * time_step;
 }
 
 void set_growth(const Scene& scene, SimulationSettings& settings) {
@@ -186,8 +187,7 @@ Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock, 
     settings.collision_moments = scene.output.stress_per_rod || scene.output.field_every > 0;
     settings.method = scene.solver.method;
     if (scene.contact.model == ContactModel::hard) {
-        settings.look_again =
-            noise_is_weak(scene, fastest_diffusion(settings.kT, *mobility, rods.size()), settings.time_step);
+        settings.look_again = noise_is_weak(scene, settings.time_step);
         settings.warm_start = scene.solver.warm_start == WarmStarts::automatic
                                   ? settings.look_again
                                   : scene.solver.warm_start == WarmStarts::always;

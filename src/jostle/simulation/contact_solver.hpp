@@ -45,8 +45,8 @@ struct SolverOutcome {
 /// Solves a contact problem by the method asked for; "auto" is projected SOR where the mobility does not couple rods,
 /// else adaptive Barzilai-Borwein descent.
 ///
-/// Every method stops at the same residual, verified over all contacts, so results agree to the
-/// tolerance. Throws InputError if projected SOR is asked for with a mobility that couples rods.
+/// Every method stops at the same residual, verified over all contacts, so results agree to the tolerance. Throws
+/// InputError if projected SOR is asked for with a mobility that couples rods.
 SolverOutcome solve_contact_problem(const ContactProblem& problem, SolverMethod method, const LcpSettings& settings,
                                     ContactSolution& solution);
 
