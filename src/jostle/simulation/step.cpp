@@ -198,8 +198,10 @@ bool Simulation::add_missed_contacts(const ContactMatrix& contact_matrix, const 
 // Not in the paper (theory, eq. 2.18): the problem again, linear about where its solution takes those rods that would
 // overlap there.
 bool Simulation::add_pushed_contacts(const ContactMatrix& contact_matrix, const ContactSolution& solution) {
+    // Beyond what the solver may leave.
+    const double tolerance = settings_.lcp.residual == LcpResidual::length ? settings_.lcp.tolerance : 0.0;
     const Contacts pushed = pushed_overlaps(contacts_, rods_, box_, places_after(contact_matrix, solution),
-                                            most_pushed_overlap * mean_diameter_);
+                                            most_pushed_overlap * mean_diameter_ + tolerance);
     const auto point_velocity = [&](std::uint32_t row, double arm) {
         const ContactVelocity& velocity = solution.velocities[contact_matrix.place_of(row)];
         return velocity.centre + arm * velocity.turning;
