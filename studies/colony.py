@@ -9,7 +9,7 @@ import numpy
 import figures
 from runs import Run, duration
 
-TIME_STEP = 0.005  # in which a cell of mean rate lengthens by 0.005 D; at 0.01 overlaps reached 0.11 D among 43,000 cells
+TIME_STEP = 0.005  # in which a cell of mean rate lengthens by 0.005 D
 CELLS, END = 200000, 55.2  # a doubling takes 3
 QUICK_CELLS, QUICK_END = 1000, 32.0
 FRAME_EVERY = 6.7

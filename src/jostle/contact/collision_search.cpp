@@ -66,6 +66,17 @@ JOSTLE_VECTORISED void glance_at(std::size_t count, Batch& batch) {
 
 }  // namespace
 
+PairGeometry pair_geometry_after(const Rods& rods, const Box& box, const PairName& name, const RodAfter& after) {
+    const auto [centre_i, axis_i] = after(name.i);
+    const auto [centre_j, axis_j] = after(name.j);
+    return {centre_j + box.displacement(name.image) - centre_i,
+            axis_i,
+            axis_j,
+            0.5 * rods.length[name.i],
+            0.5 * rods.length[name.j],
+            0.5 * (rods.diameter[name.i] + rods.diameter[name.j])};
+}
+
 double CollisionSearch::find(const Rods& rods, const Box& box, const RodMotion& motion, Contacts& contacts) {
     reach_.resize(rods.size());
     glance_.resize(rods.size());
@@ -180,18 +191,15 @@ double CollisionSearch::append(const PairName& name, const PairGeometry& before,
 }
 
 bool CollisionSearch::is_contact(const PairName& name, const Contacts& contacts) const {
-    const auto name_of = [&](std::size_t l) {
-        return PairName{contacts.contact[l].i, contacts.contact[l].j, contacts.image[l]};
-    };
     std::size_t low = 0, high = first_count_;
     while (low < high) {
         const std::size_t middle = low + (high - low) / 2;
-        if (name_of(middle) < name)
+        if (pair_of(contacts, middle) < name)
             low = middle + 1;
         else
             high = middle;
     }
-    if (low < first_count_ && name_of(low) == name) return true;
+    if (low < first_count_ && pair_of(contacts, low) == name) return true;
     return std::binary_search(added_.begin(), added_.end(), name);
 }
 
@@ -214,16 +222,10 @@ std::vector<PairName> CollisionSearch::missed_pairs(const Rods& rods, const Box&
                                                     bool thorough) {
     const auto missed = [&](const PairName& name) {
         const auto& [i, j, image] = name;
-        const auto [centre_i, axis_i] = after(i);
-        const auto [centre_j, axis_j] = after(j);
-        const Vec3 displacement = box.displacement(image);
-        const PairGeometry before = pair_geometry(rods, i, j, displacement, rods.centre, rods.axis);
-        PairGeometry pair = before;
-        pair.between = centre_j + displacement - centre_i;
-        pair.axis_i = axis_i;
-        pair.axis_j = axis_j;
+        const PairGeometry pair = pair_geometry_after(rods, box, name, after);
         const double gap = pair_gap(pair);
         if (gap >= most_touching(motion.touching, name) || is_contact(name, contacts)) return false;
+        const PairGeometry before = pair_geometry(rods, i, j, box.displacement(image), rods.centre, rods.axis);
         const NearestPoints nearest = nearest_points(before);
         Contacts points;
         return gap < append(name, before, nearest, norm(nearest.separation), pair, motion.touching, points);

@@ -55,6 +55,12 @@ std::vector<std::uint32_t> id_order(const Rods& rods) {
     return order;
 }
 
+std::vector<std::uint32_t> new_rows(std::span<const std::uint32_t> order) {
+    std::vector<std::uint32_t> row(order.size());
+    parallel_for(order.size(), [&](std::size_t k) { row[order[k]] = static_cast<std::uint32_t>(k); });
+    return row;
+}
+
 Rods reordered(const Rods& rods, std::span<const std::uint32_t> order) {
     Rods result;
     const auto take = [&](auto& to, const auto& from) {

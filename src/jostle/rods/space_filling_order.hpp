@@ -15,6 +15,9 @@ std::vector<std::uint32_t> space_filling_order(const Rods& rods, const Box& box)
 /// Rows of the rods in the order of ids.
 std::vector<std::uint32_t> id_order(const Rods& rods);
 
+/// Where each row goes: new_rows(order)[order[k]] == k.
+std::vector<std::uint32_t> new_rows(std::span<const std::uint32_t> order);
+
 /// The rods with row k taken from row order[k].
 Rods reordered(const Rods& rods, std::span<const std::uint32_t> order);
 

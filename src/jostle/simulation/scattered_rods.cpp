@@ -113,10 +113,10 @@ Rows rows_to_draw_again(const Rods& rods, const MovableCells& cells, double rang
 
 /// Puts the rods in the order of cells, so that those near each other come near each other in memory; `rows` follow.
 void sort(Rods& rods, const MovableCells& cells, Rows& rows) {
-    Rows order(rods.size()), place(rods.size());
+    Rows order(rods.size());
     std::iota(order.begin(), order.end(), 0);
     cells.sort(order, rods);
-    parallel_for(order.size(), [&](std::size_t k) { place[order[k]] = static_cast<std::uint32_t>(k); });
+    const Rows place = new_rows(order);
     rods = reordered(rods, order);
     for (std::uint32_t& row : rows) row = place[row];
 }

@@ -112,11 +112,7 @@ void Simulation::renumber() {
     if (clock_.step % every != 0) return;
     const std::vector<std::uint32_t> order = space_filling_order(rods_, box_);
     rods_ = reordered(rods_, order);
-    if (settings_.warm_start) {
-        std::vector<std::uint32_t> new_row(order.size());
-        parallel_for(order.size(), [&](std::size_t row) { new_row[order[row]] = static_cast<std::uint32_t>(row); });
-        warm_start_.renumber(new_row);
-    }
+    if (settings_.warm_start) warm_start_.renumber(new_rows(order));
     take_over_rods();
 }
 

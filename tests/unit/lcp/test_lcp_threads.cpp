@@ -11,16 +11,18 @@ using namespace jostle::test;
 
 TEST_CASE("networks of spheres: the same bits for any number of threads") {
     const int threads = parallel::thread_count();
-    const SphereNetwork network(8, 0.15, 11);
-    const LcpProblem problem{network, network.constant()};
-    for_each_solver([&](const Solver& solver) {
-        LcpSettings settings = tight(solver);
-        settings.tolerance = 1e-6;
-        const auto result = solver.solve(problem, settings, {});
-        parallel::set_thread_count(3);
-        const auto threaded = solver.solve(problem, settings, {});
-        parallel::set_thread_count(threads);
-        CHECK(threaded.iterations == result.iterations);
-        CHECK(threaded.solution == result.solution);
-    });
+    for (const double jitter : {0.05, 0.15, 0.3}) {
+        const SphereNetwork network(8, jitter, 11);
+        const LcpProblem problem{network, network.constant()};
+        for_each_solver([&](const Solver& solver) {
+            LcpSettings settings = tight(solver);
+            settings.tolerance = 1e-9;
+            const auto result = solver.solve(problem, settings, {});
+            parallel::set_thread_count(3);
+            const auto threaded = solver.solve(problem, settings, {});
+            parallel::set_thread_count(threads);
+            CHECK(threaded.iterations == result.iterations);
+            CHECK(threaded.solution == result.solution);
+        });
+    }
 }

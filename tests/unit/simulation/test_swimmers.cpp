@@ -44,10 +44,9 @@ std::string refused_key(const Scene& scene) {
 }  // namespace
 
 TEST_CASE("a rod that is turned far in one step does not end up inside another") {
-    //           | 2        swims down by 2 D in one step, and turns 1 about its lower end, until the upper one comes to
-    //           lie on 0:
-    //       .-' v          there they did not touch before
-    //   .-'     1
+    //           | 2        swims down by 2 D in one step, and turns 1 about its lower end,
+    //       .-' v          until the upper one comes to lie on 0,
+    //   .-'     1          where they did not touch before
     //   ========= 0
     Scene scene;
     scene.motion.brownian = false;
