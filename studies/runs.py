@@ -79,6 +79,11 @@ class Run:
         return json.loads((self.folder / "run.json").read_text())
 
     @property
+    def threads(self):
+        """Of the last session."""
+        return self.record["sessions"][-1]["threads"]
+
+    @property
     def wall_seconds(self):
         return sum(session["wall_seconds"] for session in self.record["sessions"])
 
@@ -135,7 +140,8 @@ def number_after(text, label):
 
 
 def run_all(jostle, runs, folder, processes):
-    """Runs all, `processes` of one thread at a time, the longest first. What has been run before is used again.
+    """Runs all, `processes` of one thread at a time, the longest first; with more threads if there are fewer runs than
+    processors. What has been run before is used again.
 
     Raises RunFailed if any failed, after all have ended, and Stopped on Ctrl-C or SIGTERM.
     """
@@ -144,6 +150,7 @@ def run_all(jostle, runs, folder, processes):
     foretold = sum(run.seconds * (1.0 - run.fraction_done()) for run in waiting)
     print(f"{len(runs)} runs, {len(runs) - len(waiting)} of them done before; the others take about "
           f"{duration(foretold / processes)} on {processes} processors", flush=True)
+    threads = max(1, processes // max(1, len(waiting)))
     running, failed = {}, []
     progress = Progress(runs)
     former = signal.signal(signal.SIGTERM, lambda *_: (_ for _ in ()).throw(KeyboardInterrupt()))
@@ -151,7 +158,7 @@ def run_all(jostle, runs, folder, processes):
         while waiting or running:
             while waiting and len(running) < processes:
                 run = waiting.pop()
-                running[start(jostle, run)] = run
+                running[start(jostle, run, threads)] = run
             for process in [process for process in running if process.poll() is not None]:
                 run = running.pop(process)
                 if process.returncode != 0:
@@ -184,10 +191,10 @@ def is_done(run):
         run.__dict__.pop("record", None)  # it will change
 
 
-def start(jostle, run):
+def start(jostle, run, threads):
     """Starts, or goes on with, a run, in a process group of its own; its messages go to a log beside its folder."""
     scene, text = run.beside(".toml"), run.text(run.time_step)
-    command = [jostle, "run", scene, "--out", run.folder, "--threads", "1", "--quiet"]
+    command = [jostle, "run", scene, "--out", run.folder, "--threads", str(threads), "--quiet"]
     former = run.folder / "scene.toml"
     if former.exists() and former.read_text() != text:
         command.append("--fresh")

@@ -18,9 +18,9 @@ namespace jostle {
 /// and in their order, so that no two of one colour share a rod: pairs of a colour can be solved by any threads in any
 /// order with the same result.
 ///
-/// Only contacts that push, or are about to, take part in most sweeps. Before the result is called solved, forces and
-/// velocities are computed anew from gamma, and the residual over all contacts from them. Missed contacts are asked for
-/// now and then while sweeps go on, and with every solution. The outcome's iterations are sweeps.
+/// Only contacts that push, or are about to, take part in most sweeps (Sweeper). Before the result is called solved,
+/// forces and velocities are computed anew from gamma, and the residual over all contacts from them. Missed contacts
+/// are asked for now and then while sweeps go on, and with every solution. The outcome's iterations are sweeps.
 SolverOutcome solve_projected_sor(const ContactProblem& problem, const LcpSettings& settings,
                                   ContactSolution& solution);
 

@@ -107,9 +107,10 @@ void Simulation::solve_contacts(StepReport& report) {
     if (settings_.warm_start) start = warm_start_.guess(contacts_);
     int looks = settings_.look_again ? most_looks : 0;
     const auto add_missed = [&](const ContactSolution& solution, bool final) {
-        if (!add_missed_contacts(contact_matrix, solution, final) &&
-            !(final && looks-- > 0 && add_pushed_contacts(contact_matrix, solution)))
-            return false;
+        // The latter first: a contact that was missed has no force yet, and is not to be mended as one that has.
+        const bool pushed = final && looks-- > 0 && add_pushed_contacts(contact_matrix, solution);
+        const bool missed = add_missed_contacts(contact_matrix, solution, final);
+        if (!pushed && !missed) return false;
         contact_matrix.extend();
         matrix.extend();
         extend_gap_velocities(b);

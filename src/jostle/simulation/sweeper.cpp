@@ -1,0 +1,247 @@
+#include "jostle/simulation/sweeper.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "jostle/parallel/parallel_for.hpp"
+
+namespace jostle {
+
+namespace {
+
+constexpr std::size_t most_colours = 64;
+/// A contact without force takes part in the sweeps over those awake if its gap would open by less than this many
+/// tolerances.
+constexpr double drowsy = 100.0;
+/// Beginning warm, a contact takes part if it, or another of its rods, changes a gap by more than this part of the
+/// tolerance in a sweep.
+constexpr double quiet = 0.5;
+
+/// The force and lever of a unit gamma on each of the rods of a contact.
+struct Column {
+    ContactForce i, j;
+};
+
+Column column_of(const ContactMatrix& contact_matrix, std::uint32_t l) {
+    const Contact& contact = contact_matrix.contacts().contact[l];
+    const auto side = [&](double sign, double arm) {
+        return ContactForce{sign * contact.normal, (sign * arm) * contact.normal};
+    };
+    const ContactForce i = side(-1.0, contact.arm_i), j = side(1.0, contact.arm_j);
+    if (contact.i != contact.j) return {i, j};
+    return {{i.force + j.force, i.lever + j.lever}, {}};  // own image: one rod feels both
+}
+
+/// Appends items for `sources`, those awake before the others if the group was empty.
+template <class Group, class Source, class IsAwake, class MakeItem>
+void append(Group& group, std::vector<Source>& sources, IsAwake&& is_awake, MakeItem&& item_of) {
+    const auto asleep = std::partition(sources.begin(), sources.end(), is_awake);
+    const std::size_t before = group.items.size();
+    const auto awake = static_cast<std::size_t>(asleep - sources.begin());
+    group.items.resize(before + sources.size());
+    parallel_for(sources.size(), [&](std::size_t n) { group.items[before + n] = item_of(sources[n]); });
+    for (std::size_t n = 0; n < awake; ++n, ++group.awake)
+        if (group.awake != before + n) std::swap(group.items[group.awake], group.items[before + n]);
+}
+
+}  // namespace
+
+template <class Real>
+Sweeper<Real>::Sweeper(const ContactProblem& problem, double tolerance, const std::vector<double>& start)
+    : matrix_(problem.matrix),
+      b_(problem.constant),
+      start_(start),
+      drowsy_velocity_(drowsy * tolerance / problem.time_step),
+      quiet_velocity_(problem.start.empty() ? 0.0 : quiet * tolerance / problem.time_step) {
+    extend();
+}
+
+template <class Real>
+void Sweeper<Real>::extend() {
+    velocities_.resize(matrix_.rods().size());
+    colour_pairs();
+    fill();
+}
+
+template <class Real>
+double Sweeper<Real>::sweep(double omega, SweepOver over) {
+    const bool all = over == SweepOver::all;
+    if (all && quiet_velocity_ > 0.0) stirred_.assign(velocities_.size(), 0.0F);
+    float* const stirred = all && quiet_velocity_ > 0.0 ? stirred_.data() : nullptr;
+    double largest = 0.0;
+    const auto pass = [&](auto& group) {
+        const auto items = all ? group.all() : group.awake_ones();
+        largest = std::max(largest, parallel_max_of_blocks(items.size(), [&](std::size_t begin, std::size_t end) {
+                               return sweep_over(items.subspan(begin, end - begin), omega, velocities_.data(), stirred);
+                           }));
+    };
+    for (Colour& colour : colours_) {
+        pass(colour.singles);
+        pass(colour.pairs);
+    }
+    if (all) {
+        for (Colour& colour : colours_) {
+            find_awake(colour.singles);
+            find_awake(colour.pairs);
+        }
+    }
+    return largest;
+}
+
+template <class Real>
+void Sweeper<Real>::read_velocities(std::span<ContactVelocity> velocities) const {
+    parallel_for(velocities.size(), [&](std::size_t place) {
+        velocities[place] = {velocities_[place].first(), velocities_[place].second()};
+    });
+}
+
+template <class Real>
+void Sweeper<Real>::refresh(ContactSolution& solution) {
+    parallel_for(solution.forces.size(), [&](std::size_t place) { solution.forces[place] = {}; });
+    for_all_contacts([&](const auto& contact) {
+        solution.gamma[contact.number] = contact.gamma;
+        if (contact.gamma == 0) return;
+        const Column column = column_of(matrix_.contact_matrix(), contact.number);
+        const double gamma = contact.gamma;
+        solution.forces[contact.i].force += gamma * column.i.force;
+        solution.forces[contact.i].lever += gamma * column.i.lever;
+        solution.forces[contact.j].force += gamma * column.j.force;
+        solution.forces[contact.j].lever += gamma * column.j.lever;
+    });
+    parallel_for(solution.forces.size(), [&](std::size_t place) {
+        const ContactForce& force = solution.forces[place];
+        ContactVelocity& velocity = solution.velocities[place];
+        velocity = velocity_of(matrix_.rods()[place], force.force, force.lever);
+        velocities_[place] = {velocity.centre, velocity.turning};
+    });
+}
+
+/// Greedily, in the order of the contacts: a pair gets the first colour that neither of its rods has yet.
+template <class Real>
+void Sweeper<Real>::colour_pairs() {
+    const auto ends = matrix_.contact_matrix().ends();
+    const Contacts& contacts = matrix_.contact_matrix().contacts();
+    taken_.resize(matrix_.rods().size(), 0);
+    for (FirstContacts& new_ones : new_contacts_) new_ones = {};
+    for (auto l = static_cast<std::uint32_t>(coloured_); l < ends.size();) {
+        const auto [i, j] = ends[l];
+        std::uint32_t next = l + 1;
+        while (next < ends.size() && next < l + most_points && ends[next].i == i && ends[next].j == j &&
+               contacts.image[next] == contacts.image[l])
+            ++next;
+        auto colour = static_cast<std::size_t>(std::countr_one(taken_[i] | taken_[j]));
+        if (colour < most_colours) {
+            taken_[i] |= std::uint64_t{1} << colour;
+            taken_[j] |= std::uint64_t{1} << colour;
+        } else {  // a rod with very many neighbours: pairs that stand alone
+            colour = std::max(new_contacts_.size(), most_colours);
+        }
+        if (new_contacts_.size() <= colour) new_contacts_.resize(colour + 1);
+        auto& [singles, pairs] = new_contacts_[colour];
+        if (next == l + 1)
+            singles.push_back(l);
+        else
+            pairs.push_back({l, next - l});
+        l = next;
+    }
+    coloured_ = ends.size();
+    colours_.resize(new_contacts_.size());
+}
+
+template <class Real>
+void Sweeper<Real>::fill() {
+    for (std::size_t k = 0; k < colours_.size(); ++k) {
+        append(
+            colours_[k].singles, new_contacts_[k].singles,
+            [&](std::uint32_t l) { return b_[l] < 0.0 || start_[l] > 0.0; },
+            [&](std::uint32_t l) { return contact_of<Real>(l); });
+        append(
+            colours_[k].pairs, new_contacts_[k].pairs, [](const auto&) { return true; },
+            [&](const auto& contacts) { return pair_of(contacts.first, contacts.second); });
+    }
+}
+
+template <class Real>
+template <class ContactReal>
+SweptContact<ContactReal> Sweeper<Real>::contact_of(std::uint32_t l) const {
+    const auto [i, j] = matrix_.contact_matrix().ends()[l];
+    const Column column = column_of(matrix_.contact_matrix(), l);
+    const auto answer = [&](std::uint32_t place, const ContactForce& force) {
+        const ContactVelocity velocity = velocity_of(matrix_.rods()[place], force.force, force.lever);
+        return Wide<ContactReal>{velocity.centre, velocity.turning};
+    };
+    const double diagonal = matrix_.diagonal()[l];
+    SweptContact<ContactReal> contact;
+    contact.column_i = {column.i.force, column.i.lever};
+    contact.column_j = {column.j.force, column.j.lever};
+    contact.answer_i = answer(i, column.i);
+    contact.answer_j = answer(j, column.j);
+    contact.b = static_cast<ContactReal>(b_[l]);
+    contact.gamma = static_cast<ContactReal>(start_[l]);
+    contact.compliance = static_cast<ContactReal>(matrix_.compliance(l));
+    contact.diagonal = static_cast<ContactReal>(diagonal);
+    contact.inverse_diagonal = static_cast<ContactReal>(diagonal > 0.0 ? 1.0 / diagonal : 0.0);
+    contact.i = i;
+    contact.j = j;
+    contact.number = l;
+    return contact;
+}
+
+template <class Real>
+SweptPair Sweeper<Real>::pair_of(std::uint32_t first, std::uint32_t count) const {
+    SweptPair pair;
+    pair.count = count;
+    for (std::uint32_t a = 0; a < count; ++a) pair.contact[a] = contact_of<double>(first + a);
+    for (std::uint32_t a = 0; a < count; ++a) {
+        const auto& of_a = pair.contact[a];
+        for (std::uint32_t c = 0; c < count; ++c) {
+            const auto& of_c = pair.contact[c];
+            pair.matrix[a][c] = sum_of_products(of_a.column_i, of_c.answer_i, of_a.column_j, of_c.answer_j);
+        }
+        pair.matrix[a][a] += of_a.compliance;
+    }
+    return pair;
+}
+
+/// Brings the items that are awake to the front.
+template <class Real>
+template <class Item>
+void Sweeper<Real>::find_awake(Group<Item>& group) {
+    const auto is_awake = [&](auto contacts) {
+        const auto moves = [&](std::uint32_t place) { return static_cast<double>(stirred_[place]) > quiet_velocity_; };
+        if (!stirred_.empty() && !moves(contacts.front().i) && !moves(contacts.front().j)) return false;
+        return std::any_of(contacts.begin(), contacts.end(), [&](const auto& contact) {
+            return contact.gamma > 0 || contact.gap_velocity(velocities_.data()) < drowsy_velocity_;
+        });
+    };
+    std::vector<std::uint8_t> awake(group.items.size());
+    parallel_for(awake.size(), [&](std::size_t k) { awake[k] = is_awake(contacts_of(group.items[k])) ? 1 : 0; });
+    std::size_t front = 0;
+    for (std::size_t back = awake.size();;) {
+        while (front < back && awake[front] == 1) ++front;
+        while (front < back && awake[back - 1] == 0) --back;
+        if (front == back) break;
+        std::swap(group.items[front++], group.items[--back]);
+    }
+    group.awake = front;
+}
+
+/// Calls body(contact) for all; those of a colour in parallel.
+template <class Real>
+template <class Body>
+void Sweeper<Real>::for_all_contacts(Body&& body) {
+    const auto pass = [&](auto items) {
+        parallel_for(items.size(), [&](std::size_t k) {
+            for (const auto& contact : contacts_of(items[k])) body(contact);
+        });
+    };
+    for (Colour& colour : colours_) {
+        pass(colour.singles.all());
+        pass(colour.pairs.all());
+    }
+}
+
+template class Sweeper<float>;
+template class Sweeper<double>;
+
+}  // namespace jostle
