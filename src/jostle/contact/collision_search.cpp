@@ -30,7 +30,7 @@ double most_touching(const Touching& touching, const PairName& name) {
 
 /// Pairs side by side, for vector instructions.
 struct Batch {
-    static constexpr std::size_t size = NeighbourList::block_size;
+    static constexpr std::size_t size = 128;  ///< few enough to stay in the nearest cache
     using Row = std::array<float, size>;
     std::array<Row, 3> between, moved, axis_i, axis_j, axis_i_after, axis_j_after;
     Row half_i, half_j, radii;
@@ -111,6 +111,20 @@ void CollisionSearch::search_block(std::size_t block, const Rods& rods, const Bo
     std::size_t count = 0;
     Batch batch;
     Batch::Row touching;
+    const auto sort_out = [&] {
+        glance_at(count, batch);
+        for (std::size_t k = 0; k < count; ++k) {
+            const float size = batch.half_i[k] + batch.half_j[k] + batch.radii[k];
+            const float slack = batch.bound_after[k] - bound_error * size - touching[k];
+            const bool clear = batch.gap[k] - gap_error * batch.radii[k] > static_cast<float>(range_);
+            if (clear && slack >= static_cast<float>(margin_))
+                found.bystanders.push_back(
+                    {rows[k], slack, {batch.normal[0][k], batch.normal[1][k], batch.normal[2][k]}, in_block[k]});
+            else
+                look_closely(name_of(block, rows[k], in_block[k]), in_block[k], rods, box, motion, found);
+        }
+        count = 0;
+    };
     neighbours_.for_close_pairs(block, [&](std::uint32_t row, std::size_t pair) {
         const auto& [i, j, image] = neighbours_.name(row, pair);
         const RodGlance &a = glance_[i], &b = glance_[j];
@@ -129,19 +143,9 @@ void CollisionSearch::search_block(std::size_t block, const Rods& rods, const Bo
         batch.half_j[count] = b.half_length;
         batch.radii[count] = a.radius + b.radius;
         touching[count] = std::sqrt((a.squared_touching + b.squared_touching) * (i == j ? 2.0F : 1.0F));
-        ++count;
+        if (++count == Batch::size) sort_out();
     });
-    glance_at(count, batch);
-    for (std::size_t k = 0; k < count; ++k) {
-        const float size = batch.half_i[k] + batch.half_j[k] + batch.radii[k];
-        const float slack = batch.bound_after[k] - bound_error * size - touching[k];
-        const bool clear = batch.gap[k] - gap_error * batch.radii[k] > static_cast<float>(range_);
-        if (clear && slack >= static_cast<float>(margin_))
-            found.bystanders.push_back(
-                {rows[k], slack, {batch.normal[0][k], batch.normal[1][k], batch.normal[2][k]}, in_block[k]});
-        else
-            look_closely(name_of(block, rows[k], in_block[k]), in_block[k], rods, box, motion, found);
-    }
+    sort_out();
     blocks_[block] = found;  // no larger than need be
 }
 
@@ -203,11 +207,10 @@ bool CollisionSearch::is_contact(const PairName& name, const Contacts& contacts)
     return std::binary_search(added_.begin(), added_.end(), name);
 }
 
-/// Whether pushes could use up the slack of a bystander: by their size, and if so, along the normal of its slab.
+/// Whether pushes could use up the slack of a bystander along the normal of its slab.
 bool CollisionSearch::may_meet(const Bystander& bystander, const Push& i, const Push& j) {
     const float slack = bystander.slack;
     const float farthest = i.farthest + j.farthest;
-    if (slack >= farthest) return false;
     const auto along = [&normal = bystander.normal](const std::array<float, 3>& a) {
         return normal_unit * (static_cast<float>(normal[0]) * a[0] + static_cast<float>(normal[1]) * a[1] +
                               static_cast<float>(normal[2]) * a[2]);
@@ -239,10 +242,15 @@ std::vector<PairName> CollisionSearch::missed_pairs(const Rods& rods, const Box&
         if (missed(name)) found[block].push_back(name);
     };
     if (!neighbours_.built_while_widened()) {
+        // Most bystanders have more slack than any push: those are passed over by this alone, in few bytes.
+        farthest_push_.resize(pushes.size());
+        parallel_for(pushes.size(), [&](std::size_t i) { farthest_push_[i] = pushes[i].farthest; });
         parallel_for_parts(blocks_.size(), [&](std::size_t block) {
             for (const Bystander& bystander : blocks_[block].bystanders) {
-                const PairName name = name_of(block, bystander.i, bystander.in_block);
-                if (may_meet(bystander, pushes[name.i], pushes[name.j])) look(block, name);
+                const std::uint32_t j = neighbours_.partner(pair_number(block, bystander.in_block));
+                if (bystander.slack >= farthest_push_[bystander.i] + farthest_push_[j]) continue;
+                if (may_meet(bystander, pushes[bystander.i], pushes[j]))
+                    look(block, name_of(block, bystander.i, bystander.in_block));
             }
         });
     }

@@ -97,8 +97,11 @@ private:
         double overlap = 0.0;
     };
 
+    static std::size_t pair_number(std::size_t block, std::size_t in_block) {
+        return block * NeighbourList::block_size + in_block;
+    }
     PairName name_of(std::size_t block, std::uint32_t i, std::size_t in_block) const {
-        return neighbours_.name(i, block * NeighbourList::block_size + in_block);
+        return neighbours_.name(i, pair_number(block, in_block));
     }
     void look_closely(const PairName& name, std::uint16_t in_block, const Rods& rods, const Box& box,
                       const RodMotion& motion, Found& found) const;
@@ -113,8 +116,9 @@ private:
     std::vector<double> reach_;      ///< (N) displacement + touching + push allowance
     std::vector<RodGlance> glance_;  ///< (N)
     std::vector<Found> blocks_;
-    std::size_t first_count_ = 0;  ///< contacts before any were added
-    std::vector<PairName> added_;  ///< missed pairs of this step, ascending
+    std::vector<float> farthest_push_;  ///< (N) by forces, at the last search for missed pairs
+    std::size_t first_count_ = 0;       ///< contacts before any were added
+    std::vector<PairName> added_;       ///< missed pairs of this step, ascending
 };
 
 }  // namespace jostle

@@ -57,6 +57,9 @@ public:
         return now;
     }
 
+    /// j of a pair.
+    std::uint32_t partner(std::size_t pair) const { return j_[pair]; }
+
     static constexpr std::size_t block_size = 512;
     std::size_t block_count() const { return (size() + block_size - 1) / block_size; }
 

@@ -20,7 +20,7 @@ const std::vector<std::string> centre_columns = {"x", "y", "z"};
 const std::vector<std::string> quaternion_columns = {"quaternion_w", "quaternion_x", "quaternion_y", "quaternion_z"};
 const std::vector<std::string> shapes = {"sphere", "spherocylinder", "box", "ellipsoid"};
 
-KnownColumns known_columns() {
+KnownColumns body_columns() {
     KnownColumns known{{"id", "length", "diameter"}, {"shape"}};
     for (const auto& columns :
          {centre_columns, tensor_columns("second_moment"), tensor_columns("inertia"), vector_columns("axis"),
@@ -91,9 +91,9 @@ Mat3 of_shape(const Row& row) {
                       .suggestion = did_you_mean(shape, shapes)});
 }
 
-enum class Form { second_moment, inertia, shape };
+enum class BodyForm { second_moment, inertia, shape };
 
-Form form_of(const Table& table) {
+BodyForm body_form_of(const Table& table) {
     const bool second_moment = table.has_all(tensor_columns("second_moment"));
     const bool inertia = table.has_all(tensor_columns("inertia"));
     const int forms = int{second_moment} + int{inertia} + int{table.has("shape")};
@@ -103,19 +103,19 @@ Form form_of(const Table& table) {
             fmt::format("Give one of second_moment_xx ... second_moment_zz, inertia_xx ... inertia_zz, or "
                         "shape with its sizes; the file has {}",
                         quoted_list(table.names)));
-    return second_moment ? Form::second_moment : inertia ? Form::inertia : Form::shape;
+    return second_moment ? BodyForm::second_moment : inertia ? BodyForm::inertia : BodyForm::shape;
 }
 
-Mat3 second_moment_of(const Row& row, Form form) {
-    if (form == Form::shape) return of_shape(row);
-    if (form == Form::inertia) return second_moment_of_inertia(symmetric(row, "inertia"));
+Mat3 second_moment_of(const Row& row, BodyForm form) {
+    if (form == BodyForm::shape) return of_shape(row);
+    if (form == BodyForm::inertia) return second_moment_of_inertia(symmetric(row, "inertia"));
     const Mat3 moment = symmetric(row, "second_moment");
     geometric_stress(moment, Vec3{});  // throws where it is none
     return moment;
 }
 
 /// Adds the body of a row of the table. Throws InputError, without a place, if it cannot be taken.
-void add_body(BodyTable& result, const Table& table, std::size_t k, Form form) {
+void add_body(BodyTable& result, const Table& table, std::size_t k, BodyForm form) {
     const Row row(table, k);
     const std::int64_t id = whole_number("id", row.number("id"));
     const auto centre = row.numbers(centre_columns);
@@ -133,10 +133,10 @@ void add_body(BodyTable& result, const Table& table, std::size_t k, Form form) {
 }  // namespace
 
 BodyTable read_bodies(const std::string& path) {
-    const KnownColumns known = known_columns();
+    const KnownColumns known = body_columns();
     Table table = read_table(path, known);
     table.require({"id", "x", "y", "z"});
-    const Form form = form_of(table);
+    const BodyForm form = body_form_of(table);
     if (table.rows == 0) throw refused_file(path, "the file holds no bodies", "");
     table.require_filled({"id", "x", "y", "z"});
     BodyTable result;

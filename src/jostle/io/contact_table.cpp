@@ -12,7 +12,7 @@ namespace jostle {
 
 namespace {
 
-KnownColumns known_columns() {
+KnownColumns contact_columns() {
     KnownColumns known{{"body_1", "body_2"}, {}};
     for (const char* name : {"force", "contact", "point_1", "point_2", "separation", "image"})
         for (const std::string& column : vector_columns(name)) known.numbers.push_back(column);
@@ -20,14 +20,14 @@ KnownColumns known_columns() {
 }
 
 /// Which of the optional columns a table has.
-struct Form {
+struct ContactForm {
     bool contact, points, separation, image;
 };
 
-Form form_of(const Table& table, bool with_box) {
-    const Form form = {table.has_all(vector_columns("contact")),
-                       table.has_all(vector_columns("point_1")) || table.has_all(vector_columns("point_2")),
-                       table.has_all(vector_columns("separation")), table.has_all(vector_columns("image"))};
+ContactForm contact_form_of(const Table& table, bool with_box) {
+    const ContactForm form = {table.has_all(vector_columns("contact")),
+                              table.has_all(vector_columns("point_1")) || table.has_all(vector_columns("point_2")),
+                              table.has_all(vector_columns("separation")), table.has_all(vector_columns("image"))};
     if (form.points) {
         table.require(vector_columns("point_1"));
         table.require(vector_columns("point_2"));
@@ -46,7 +46,7 @@ Form form_of(const Table& table, bool with_box) {
     return form;
 }
 
-std::vector<std::string> columns_of(const Form& form) {
+std::vector<std::string> columns_of(const ContactForm& form) {
     std::vector<std::string> columns = {"body_1", "body_2"};
     const auto add = [&](bool there, const char* name) {
         if (!there) return;
@@ -79,7 +79,7 @@ Vec3 nearest_image(Vec3 distance, const std::optional<Box>& box, const char* of)
 /// Turns rows into contacts.
 class ContactReader {
 public:
-    ContactReader(const Table& table, const Form& form, const BodyTable& bodies, const std::optional<Box>& box)
+    ContactReader(const Table& table, const ContactForm& form, const BodyTable& bodies, const std::optional<Box>& box)
         : bodies_(bodies),
           box_(box),
           form_(form),
@@ -144,7 +144,7 @@ private:
 
     const BodyTable& bodies_;
     const std::optional<Box>& box_;
-    Form form_;
+    ContactForm form_;
     const std::vector<double>&body_1_, &body_2_;
     VectorColumn force_, contact_, point_1_, point_2_, separation_, image_;
 };
@@ -152,12 +152,12 @@ private:
 }  // namespace
 
 ContactTable read_contacts(const std::string& path, const BodyTable& bodies, const std::optional<Box>& box) {
-    const KnownColumns known = known_columns();
+    const KnownColumns known = contact_columns();
     Table table = read_table(path, known);
     std::vector<std::string> required = {"body_1", "body_2"};
     for (const std::string& column : vector_columns("force")) required.push_back(column);
     table.require(required);
-    const Form form = form_of(table, box.has_value());
+    const ContactForm form = contact_form_of(table, box.has_value());
     table.require_filled(columns_of(form));
     ContactTable result;
     result.one_point = form.contact;

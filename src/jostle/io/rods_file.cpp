@@ -11,15 +11,15 @@ namespace jostle {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> names = {"x", "y", "z", "nx", "ny", "nz", "length", "diameter", "speed"};
-constexpr CsvColumns columns = {names, 6, "a rods file",
-                                "The header names the columns x,y,z,nx,ny,nz and optionally length,diameter,speed"};
+constexpr std::array<std::string_view, 9> rod_names = {"x", "y", "z", "nx", "ny", "nz", "length", "diameter", "speed"};
+constexpr CsvColumns rod_columns = {rod_names, 6, "a rods file",
+                                    "The header names the columns x,y,z,nx,ny,nz and optionally length,diameter,speed"};
 
 }  // namespace
 
 Rods read_rods(const std::string& path, double default_length, double default_diameter) {
     Rods rods;
-    for_each_csv_row(path, columns, [&](int line, std::span<const std::optional<double>> values) {
+    for_each_csv_row(path, rod_columns, [&](int line, std::span<const std::optional<double>> values) {
         const Vec3 centre{*values[0], *values[1], *values[2]}, axis{*values[3], *values[4], *values[5]};
         const double length = values[6].value_or(default_length), diameter = values[7].value_or(default_diameter);
         if (!(norm(axis) > 1e-12)) throw refused_file(path, "the axis (nx, ny, nz) has no direction", "", line);

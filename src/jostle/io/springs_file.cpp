@@ -13,9 +13,9 @@ namespace jostle {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> names = {"rod_1", "rod_2", "s_1", "s_2", "rest_length", "stiffness"};
-constexpr CsvColumns columns = {names, 6, "a springs file",
-                                "The header names the columns rod_1,rod_2,s_1,s_2,rest_length,stiffness"};
+constexpr std::array<std::string_view, 6> spring_names = {"rod_1", "rod_2", "s_1", "s_2", "rest_length", "stiffness"};
+constexpr CsvColumns spring_columns = {spring_names, 6, "a springs file",
+                                       "The header names the columns rod_1,rod_2,s_1,s_2,rest_length,stiffness"};
 /// |s| may pass half the length by this part of it: ends computed elsewhere miss it by rounding.
 constexpr double rounding = 1e-9;
 constexpr double largest = 1e30;
@@ -49,7 +49,7 @@ public:
     }
 
     [[noreturn]] void refuse(std::size_t column, const std::string& problem, const std::string& allowed) const {
-        throw InputError({.key = std::string(names[column]),
+        throw InputError({.key = std::string(spring_names[column]),
                           .value = fmt::format("{}", *values_[column]),
                           .problem = problem,
                           .allowed = allowed,
@@ -67,7 +67,7 @@ private:
 std::vector<Spring> read_springs(const std::string& path, std::uint64_t rod_count,
                                  const std::function<double(std::uint64_t)>& length_of) {
     std::vector<Spring> springs;
-    for_each_csv_row(path, columns, [&](int number, std::span<const std::optional<double>> values) {
+    for_each_csv_row(path, spring_columns, [&](int number, std::span<const std::optional<double>> values) {
         const Line line(path, number, values);
         Spring spring;
         spring.rod_1 = line.id(0, rod_count);

@@ -11,12 +11,6 @@
 
 namespace jostle {
 
-namespace {
-
-constexpr std::size_t part = 256;  ///< rods whose numbers are drawn together
-
-}  // namespace
-
 BrownianMotion::BrownianMotion(double kT, const Mobility& mobility) : kT_(kT), mobility_(mobility) {
     if (std::isfinite(kT) && kT >= 0.0) return;
     std::ostringstream value;
@@ -39,8 +33,8 @@ void BrownianMotion::add_to(Velocities& known, const Rods& rods, const StepConte
         mobility_.add_square_root(rods, 0, normals, scale, known);
         return;
     }
-    parallel_for_blocks(rods.size(), part, [&](std::size_t, std::size_t begin, std::size_t end) {
-        std::array<Normals, part> normals;
+    parallel_for_blocks(rods.size(), normals_at_a_time, [&](std::size_t, std::size_t begin, std::size_t end) {
+        std::array<Normals, normals_at_a_time> normals;
         fill_normals(key, {rods.id.data() + begin, end - begin}, {normals.data(), end - begin});
         mobility_.add_square_root(rods, begin, {normals.data(), end - begin}, scale, known);
     });

@@ -10,12 +10,6 @@
 
 namespace jostle {
 
-namespace {
-
-constexpr std::size_t part = 256;  ///< rods whose numbers are drawn together
-
-}  // namespace
-
 SelfPropulsion::SelfPropulsion(const Swimming& swimming)
     : swimming_(swimming), tumbles_(swimming.tumble_rate, swimming.tumble_time) {
     const auto& [speed, deviation, tumble_rate, tumble_time, reversal_rate] = swimming_;
@@ -52,8 +46,8 @@ std::vector<double> SelfPropulsion::speeds(const Rods& rods, std::uint64_t seed)
     std::vector<double> speed(rods.size(), swimming_.speed);
     if (swimming_.deviation == 0.0) return speed;
     const RandomKey key{seed, 0, Stream::swimming_speed, 0};
-    parallel_for_blocks(rods.size(), part, [&](std::size_t, std::size_t begin, std::size_t end) {
-        std::array<Normals, part> normals;
+    parallel_for_blocks(rods.size(), normals_at_a_time, [&](std::size_t, std::size_t begin, std::size_t end) {
+        std::array<Normals, normals_at_a_time> normals;
         fill_normals(key, {rods.id.data() + begin, end - begin}, {normals.data(), end - begin});
         for (std::size_t i = begin; i < end; ++i) speed[i] += swimming_.deviation * normals[i - begin][0];
     });

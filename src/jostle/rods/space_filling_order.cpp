@@ -20,7 +20,7 @@ std::uint64_t spread(std::uint64_t x) {
     return (x | x << 2) & 0x1249249249249249ULL;
 }
 
-struct Place {
+struct CellPlace {
     std::uint64_t along_curve, id;
     std::uint32_t row;
 };
@@ -33,14 +33,14 @@ std::vector<std::uint32_t> space_filling_order(const Rods& rods, const Box& box)
     const auto coordinate = [&](double x) {
         return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x / cell))) % cells_per_edge;
     };
-    std::vector<Place> places(rods.size());
+    std::vector<CellPlace> places(rods.size());
     parallel_for(rods.size(), [&](std::size_t i) {
         const Vec3& centre = rods.centre[i];
         const std::uint64_t along =
             spread(coordinate(centre.x)) | spread(coordinate(centre.y)) << 1 | spread(coordinate(centre.z)) << 2;
         places[i] = {along, rods.id[i], static_cast<std::uint32_t>(i)};
     });
-    std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    std::sort(places.begin(), places.end(), [](const CellPlace& a, const CellPlace& b) {
         return a.along_curve != b.along_curve ? a.along_curve < b.along_curve : a.id < b.id;
     });
     std::vector<std::uint32_t> order(rods.size());
