@@ -13,8 +13,8 @@ from runs import Run
 
 BETA = 5
 POINTS = {  # volume fraction: steps of equilibration (a random start near the transition orders slowly) and production
-    0.05: (2000, 62000), 0.10: (2000, 26000), 0.15: (3000, 26000), 0.20: (3500, 26000), 0.25: (4500, 26000),
-    0.30: (7000, 26000), 0.35: (17000, 72000), 0.40: (35000, 180000)}
+    0.05: (2000, 62000), 0.10: (2000, 26000), 0.15: (3000, 26000), 0.20: (3500, 26000), 0.25: (4500, 45000),
+    0.30: (7000, 26000), 0.35: (17000, 55000), 0.40: (35000, 140000)}
 SEEDS = {0.40: (1, 2)}  # of runs side by side, where one would take too long; else 1
 QUICK_POINTS = (0.10, 0.20)
 LARGEST_RELATIVE_ERROR = 0.005
