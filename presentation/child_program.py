@@ -3,6 +3,8 @@
 import signal
 import subprocess
 
+SECONDS_DEAF = 0.5  # a signal that comes just before a wait begins is heard only when it ends
+
 
 def run(words, folder):
     """Runs a program in the folder to its end. Result: its status, and what it said on standard error."""
@@ -16,13 +18,21 @@ def run(words, folder):
         _restore(with_signals)
         if stopped:
             raise KeyboardInterrupt
-        _, errors = process.communicate()
+        errors = _errors_of(process)
         return process.returncode, errors
     finally:
         if process:
             process.kill()  # does nothing to one that has ended
             process.wait()
         _restore(with_signals)
+
+
+def _errors_of(process):
+    while True:
+        try:
+            return process.communicate(timeout=SECONDS_DEAF)[1]
+        except subprocess.TimeoutExpired:
+            pass
 
 
 def _restore(with_signals):
