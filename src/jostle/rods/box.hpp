@@ -15,6 +15,8 @@ struct Box {
 
     double volume() const { return edges.x * edges.y * edges.z; }
 
+    bool is_periodic() const { return periodic[0] && periodic[1] && periodic[2]; }
+
     /// The vector by which a copy is displaced: image * edges, element by element.
     Vec3 displacement(const Image& image) const { return {image[0] * edges.x, image[1] * edges.y, image[2] * edges.z}; }
 

@@ -34,7 +34,7 @@ public:
     std::size_t size() const { return virial_.size(); }
     Vec3 centre(std::size_t cell) const;
     double cell_volume() const { return edges_.x * edges_.y * edges_.z; }
-    bool has_outside() const { return !(box_.periodic[0] && box_.periodic[1] && box_.periodic[2]); }
+    bool has_outside() const { return !box_.is_periodic(); }
 
     /// Means over the steps, in a cell: stress (force/length^2), and rods per volume. Not numbers before the first
     /// step.
