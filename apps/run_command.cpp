@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <numeric>
 
 #include "jostle/io/h5md_writer.hpp"
 #include "jostle/io/rods_of_scene.hpp"
@@ -34,6 +35,8 @@ namespace {
 constexpr double longest_run_in_productions = 10.0;
 /// How often, in parts of the production time, it is looked whether the series has settled.
 constexpr std::size_t looks_per_production = 20;
+/// Steps of large assemblies take long: a crash shall cost no more than this.
+constexpr std::chrono::minutes longest_between_checkpoints{10};
 
 /// Decides, from the series alone, when a run has all that it was asked for.
 class RunLength {
@@ -90,6 +93,7 @@ public:
         while (!length_.is_over(files_.series())) {
             if (simulation_.rods().size() == 0) return die_out();
             const StepReport report = simulation_.step();
+            longest_step_ = std::max(longest_step_, std::accumulate(report.seconds.begin(), report.seconds.end(), 0.0));
             if (const auto failure = step_failure(report, scene_, simulation_.rods())) return give_up(report, *failure);
             sums_.add(report, simulation_);
             if (scene_.growth.rate > 0.0) files_.append_lineage(simulation_);
@@ -116,21 +120,23 @@ private:
             files_.append_field(simulation_, *sums_.field);
             sums_.field->clear();
         }
-        if (due(scene_.output.checkpoint_every)) checkpoint();
+        const bool is_overdue = std::chrono::steady_clock::now() - last_checkpoint_ > longest_between_checkpoints;
+        if (due(scene_.output.checkpoint_every) || is_overdue) checkpoint();
     }
 
     void checkpoint() {
         const auto begin = std::chrono::steady_clock::now();
         files_.write_checkpoint(simulation_, sums_);
-        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+        last_checkpoint_ = std::chrono::steady_clock::now();
+        const std::chrono::duration<double> took = last_checkpoint_ - begin;
         longest_checkpoint_ = std::max(longest_checkpoint_, took.count());
     }
 
     std::string reason_to_stop() const {
         if (stop_request::signal_received() != 0) return fmt::format("signal {}", stop_request::signal_received());
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - options_.began;
-        if (options_.wall_time && elapsed.count() + 3.0 * longest_checkpoint_ + 1.0 >= *options_.wall_time)
-            return "walltime";
+        const double to_be_done = longest_step_ + 3.0 * longest_checkpoint_ + 1.0;
+        if (options_.wall_time && elapsed.count() + to_be_done >= *options_.wall_time) return "walltime";
         return "";
     }
 
@@ -221,7 +227,8 @@ private:
     RunLength length_;
     RunRecord record_;
     ProgressLine progress_;
-    double longest_checkpoint_ = 0.0;
+    std::chrono::steady_clock::time_point last_checkpoint_ = std::chrono::steady_clock::now();
+    double longest_step_ = 0.0, longest_checkpoint_ = 0.0;  ///< s
 };
 
 std::string folder_for(const RunOptions& options) {

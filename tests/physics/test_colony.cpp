@@ -8,15 +8,15 @@
 
 using namespace jostle;
 
-//     ()  ->  ()()  ->  ...  ->  a ball of 2000: the inner ones push all others outwards
-TEST_CASE("two thousand cells from one: no overlap above what two cells grow in a step, after any division") {
+//     ()  ->  ()()  ->  ...  ->  a ball of 10,000: the inner ones push all others outwards
+TEST_CASE("ten thousand cells from one: no overlap above what two cells grow in a step, after any division") {
     Scene scene;
     scene.seed = 2;
     scene.rods.count = 1;
     scene.rods.length = 2.0;
     scene.fluid.kT = 0.001;                     // a little noise lets the line of the first daughters buckle
     scene.contact.brownian_correction = false;  // whose contacts give way to what many neighbours push
-    scene.time.step = 0.01;
+    scene.time.step = 0.02;
     scene.growth.rate = 1.0;
     scene.growth.rate_deviation = 0.1;
     scene.growth.division_length = 5.0;
@@ -26,7 +26,7 @@ TEST_CASE("two thousand cells from one: no overlap above what two cells grow in 
     Simulation simulation = assemble(scene, {{1000, 1000, 1000}, {false, false, false}}, std::move(rods), {});
     double largest = 0.0;
     std::uint64_t births = 0, iterations = 0;
-    while (simulation.rods().size() < 2000) {
+    while (simulation.rods().size() < 10000) {
         const StepReport report = simulation.step();
         REQUIRE(report.status == LcpStatus::converged);
         largest = std::max(largest, report.max_overlap);
@@ -37,5 +37,5 @@ TEST_CASE("two thousand cells from one: no overlap above what two cells grow in 
     CHECK(births == simulation.rods().size() - 1);
     // rate dt (1 + 4 deviations)/2 from each of two cells; the solver's tolerance; and second order in the turns of a
     // step, squared rms of (0.01)^2 times the length.
-    CHECK(largest < 0.01 * 1.4 + 1e-4 + 2e-3);
+    CHECK(largest < 0.02 * 1.4 + 1e-4 + 2e-3);
 }

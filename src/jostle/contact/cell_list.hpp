@@ -17,6 +17,9 @@ public:
     std::size_t size() const { return begin_.size() - 1; }
     Image farthest_image() const { return grid_.farthest_image(); }
 
+    /// All rows, cell by cell.
+    std::span<const std::uint32_t> rods() const { return rods_; }
+
     /// Rows of the rods in a cell, ascending.
     std::span<const std::uint32_t> rods_in(std::size_t cell) const { return rods_in(cell, cell); }
 

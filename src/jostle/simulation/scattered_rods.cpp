@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "jostle/contact/cell_grid.hpp"
+#include "jostle/contact/cell_list.hpp"
 #include "jostle/contact/pair_contacts.hpp"
 #include "jostle/math/random.hpp"
 #include "jostle/parallel/parallel_for.hpp"
@@ -22,57 +23,79 @@ namespace {
 constexpr std::uint32_t most_draws = 100, most_draws_of_few = 1000;
 constexpr double few = 0.01;
 
-constexpr std::size_t rods_per_block = 64;
-
 using Rows = std::vector<std::uint32_t>;
 
 /// Rods in cells, that may be moved to other places one by one.
 class MovableCells {
 public:
     /// `range`: the largest distance of centres that `visit` must cover.
-    MovableCells(const Rods& rods, const Box& box, double range)
-        : box_(box), grid_(rods, box, range), first_(grid_.size(), none), next_(rods.size(), none) {
+    MovableCells(const CellGrid& grid, const Box& box, double range)
+        : grid_(grid),
+          box_(box),
+          // Places are kept in single precision.
+          squared_range_(static_cast<float>(std::pow(range + 1e-6 * (box.edges.x + box.edges.y + box.edges.z), 2.0))),
+          first_(grid.size()) {}
+
+    void fill(const Rods& rods) {
+        std::fill(first_.begin(), first_.end(), none);
+        places_.resize(rods.size());
         for (std::size_t i = rods.size(); i-- > 0;) put_in(static_cast<std::uint32_t>(i), rods.centre[i]);
     }
 
     void put_in(std::uint32_t row, const Vec3& centre) {
         std::uint32_t& first = first_[grid_.cell_of(centre)];
-        next_[row] = first;
+        const auto single = [](double value) { return static_cast<float>(value); };
+        places_[row] = {single(centre.x), single(centre.y), single(centre.z), first};
         first = row;
     }
 
     void take_out(std::uint32_t row, const Vec3& centre) {
         std::uint32_t* link = &first_[grid_.cell_of(centre)];
-        while (*link != row) link = &next_[*link];
-        *link = next_[row];
+        while (*link != row) link = &places_[*link].next;
+        *link = places_[row].next;
     }
 
-    /// Rows of one cell, and of neighbouring cells, come one after the other.
-    void sort(Rows& rows, const Rods& rods) const {
-        std::vector<std::uint64_t> keys(rows.size());
-        parallel_for(rows.size(),
-                     [&](std::size_t k) { keys[k] = grid_.cell_of(rods.centre[rows[k]]) << 32 | rows[k]; });
-        std::sort(keys.begin(), keys.end());
-        parallel_for(rows.size(), [&](std::size_t k) { rows[k] = static_cast<std::uint32_t>(keys[k]); });
-    }
-
-    /// Calls found(row, displacement of its image) with the rods of all cells near `centre`.
-    template <class Found>
-    void visit(const Vec3& centre, Found&& found) const {
+    /// Whether overlaps(row, displacement of its image) for any of the rods within range of `centre`; it may be asked
+    /// of a few that are not.
+    template <class Overlaps>
+    bool any_near(const Vec3& centre, Overlaps&& overlaps) const {
+        bool any = false;
         grid_.visit(grid_.cell_of(centre), [&](std::size_t first, std::size_t last, const Image& image) {
-            const Vec3 displacement = box_.displacement(image);
+            const Vec3 displacement = box_.displacement(image), origin = centre - displacement;
+            const float x = static_cast<float>(origin.x), y = static_cast<float>(origin.y),
+                        z = static_cast<float>(origin.z);
             for (std::size_t cell = first; cell <= last; ++cell)
-                for (std::uint32_t row = first_[cell]; row != none; row = next_[row]) found(row, displacement);
+                for (std::uint32_t row = first_[cell]; row != none && !any;) {
+                    const Place& place = places_[row];
+                    const float dx = place.x - x, dy = place.y - y, dz = place.z - z;
+                    any = dx * dx + dy * dy + dz * dz < squared_range_ && overlaps(row, displacement);
+                    row = place.next;
+                }
         });
+        return any;
     }
 
 private:
     static constexpr std::uint32_t none = 0xFFFFFFFF;
-    Box box_;
-    CellGrid grid_;
-    Rows first_;  ///< (cells)
-    Rows next_;   ///< (N) in the same cell
+    struct Place {
+        float x, y, z;
+        std::uint32_t next;  ///< row in the same cell
+    };
+
+    const CellGrid& grid_;
+    const Box& box_;
+    float squared_range_;
+    Rows first_;                 ///< (cells)
+    std::vector<Place> places_;  ///< (N) most of the time is spent in waiting for these: keep them small
 };
+
+/// Rows in the order of the cells that the rods are in.
+void sort_by_cell(Rows& rows, const Rods& rods, const CellGrid& grid) {
+    std::vector<std::uint64_t> keys(rows.size());
+    parallel_for(rows.size(), [&](std::size_t k) { keys[k] = grid.cell_of(rods.centre[rows[k]]) << 32 | rows[k]; });
+    std::sort(keys.begin(), keys.end());
+    parallel_for(rows.size(), [&](std::size_t k) { rows[k] = static_cast<std::uint32_t>(keys[k]); });
+}
 
 Vec3 random_axis(const RandomKey& key, std::uint32_t draw) {
     const auto u = uniform4(key, 2 * draw + 1);
@@ -81,44 +104,39 @@ Vec3 random_axis(const RandomKey& key, std::uint32_t draw) {
     return normalised({radius * std::cos(angle), radius * std::sin(angle), z});
 }
 
-/// Of every two rods that overlap, one of them in `rows`, the one with the higher id. Rods farther apart than `range`
-/// do not.
-Rows rows_to_draw_again(const Rods& rods, const MovableCells& cells, double range, const Rows& rows) {
-    std::vector<Rows> found((rows.size() + rods_per_block - 1) / rods_per_block);
-    const auto look_around = [&](std::uint32_t row, Rows& again) {
-        cells.visit(rods.centre[row], [&](std::uint32_t other, const Vec3& displacement) {
-            const Vec3 between = rods.centre[other] + displacement - rods.centre[row];
-            const double squared_distance = squared_norm(between);
-            if (squared_distance >= range * range || (other == row && squared_distance == 0.0)) return;
-            // Most are told apart by the distance of the lines through their axes.
-            const Vec3 across = cross(rods.axis[row], rods.axis[other]);
-            const double touching = 0.5 * (rods.diameter[row] + rods.diameter[other]), shift = dot(between, across);
-            if (shift * shift > 1.001 * touching * touching * squared_norm(across)) return;
-            const bool is_first = rods.id[row] <= rods.id[other];
-            const auto [i, j] = is_first ? std::pair(row, other) : std::pair(other, row);
-            if (pair_gap(pair_geometry(rods, i, j, is_first ? displacement : -displacement, rods.centre, rods.axis)) <
-                0.0)
-                again.push_back(j);
+bool overlap(const Rods& rods, std::uint32_t i, std::uint32_t j, const Vec3& displacement) {
+    const Vec3 between = rods.centre[j] + displacement - rods.centre[i];
+    // Most are told apart by the distance of the lines through their axes.
+    const Vec3 across = cross(rods.axis[i], rods.axis[j]);
+    const double touching = 0.5 * (rods.diameter[i] + rods.diameter[j]), shift = dot(between, across);
+    if (shift * shift > 1.001 * touching * touching * squared_norm(across)) return false;
+    return pair_gap(pair_geometry(rods, i, j, displacement, rods.centre, rods.axis)) < 0.0;
+}
+
+/// Of the rods just drawn, those that overlap their own image, one that stays, or one just drawn with a lower id.
+Rows rows_to_draw_again(const Rods& rods, const MovableCells& cells, const Rows& drawn) {
+    std::vector<std::uint8_t> stays(rods.size(), 1), again(drawn.size());
+    for (const std::uint32_t row : drawn) stays[row] = 0;
+    parallel_for(drawn.size(), [&](std::size_t k) {
+        const std::uint32_t row = drawn[k];
+        again[k] = cells.any_near(rods.centre[row], [&](std::uint32_t other, const Vec3& displacement) {
+            if (other == row && squared_norm(displacement) == 0.0) return false;
+            const bool gives_way = !stays[other] && rods.id[other] > rods.id[row];
+            return !gives_way && overlap(rods, row, other, displacement);
         });
-    };
-    parallel_for_blocks(rows.size(), rods_per_block, [&](std::size_t block, std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) look_around(rows[k], found[block]);
     });
-    Rows again;
-    for (const Rows& part : found) again.insert(again.end(), part.begin(), part.end());
-    std::sort(again.begin(), again.end());
-    again.erase(std::unique(again.begin(), again.end()), again.end());
-    return again;
+    Rows rows;
+    for (std::size_t k = 0; k < drawn.size(); ++k)
+        if (again[k]) rows.push_back(drawn[k]);
+    return rows;
 }
 
 /// Puts the rods in the order of cells, so that those near each other come near each other in memory; `rows` follow.
-void sort(Rods& rods, const MovableCells& cells, Rows& rows) {
-    Rows order(rods.size());
-    std::iota(order.begin(), order.end(), 0);
-    cells.sort(order, rods);
-    const Rows place = new_rows(order);
+void renumber(Rods& rods, const Box& box, double range, Rows& rows) {
+    const CellList cells(rods, box, range);
+    const Rows order(cells.rods().begin(), cells.rods().end()), place = new_rows(order);
     rods = reordered(rods, order);
-    for (std::uint32_t& row : rows) row = place[row];
+    parallel_for(rows.size(), [&](std::size_t k) { rows[k] = place[rows[k]]; });
 }
 
 }  // namespace
@@ -141,25 +159,23 @@ Rods scattered_rods(const Scene& scene, const Box& box, const std::optional<Vec3
     const double range =
         parallel_max(rods.size(), 0.0, [&](std::size_t i) { return rods.length[i] + rods.diameter[i]; });
     draw_places(again, 0);
-    MovableCells cells(rods, box, range);
-    std::size_t when_sorted = 0;
-    const auto sort_all = [&] {
-        sort(rods, cells, again);
-        cells = MovableCells(rods, box, range);
-        when_sorted = again.size();
+    const CellGrid grid(rods, box, range);
+    MovableCells cells(grid, box, range);
+    const auto renumber_all = [&] {
+        renumber(rods, box, range, again);
+        cells.fill(rods);
     };
-    sort_all();
-    again = rows_to_draw_again(rods, cells, range, again);
-    const std::size_t worth_sorting = rods.size() / 16;  // fewer are soon drawn anew wherever they lie in memory
+    renumber_all();
+    const std::size_t worth_renumbering = rods.size() / 64;  // fewer are soon looked at, wherever they lie
     const auto most_few = static_cast<std::size_t>(few * static_cast<double>(rods.size()));
-    for (std::uint32_t draw = 1; !again.empty() && draw < (again.size() <= most_few ? most_draws_of_few : most_draws);
-         ++draw) {
-        if (again.size() <= when_sorted / 2 && when_sorted > worth_sorting) sort_all();
+    for (std::uint32_t draw = 1;; ++draw) {
+        sort_by_cell(again, rods, grid);
+        again = rows_to_draw_again(rods, cells, again);
+        if (again.empty() || draw >= (again.size() <= most_few ? most_draws_of_few : most_draws)) break;
         for (const std::uint32_t row : again) cells.take_out(row, rods.centre[row]);
         draw_places(again, draw);
         for (const std::uint32_t row : again) cells.put_in(row, rods.centre[row]);
-        cells.sort(again, rods);
-        again = rows_to_draw_again(rods, cells, range, again);
+        if (again.size() > worth_renumbering) renumber_all();
     }
     return reordered(rods, id_order(rods));
 }

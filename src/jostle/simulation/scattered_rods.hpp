@@ -8,10 +8,10 @@
 
 namespace jostle {
 
-/// Rods at random places, those that overlap one of a lower id drawn anew, with random axes or a common one (unit
-/// vector): while they are dilute this leaves them as in equilibrium to first order in the density, where pushing them
-/// apart would leave too many touching (docs/decisions/0012-random-start.md). Where they are not, overlaps remain. In
-/// the order of ids.
+/// Rods at random places, those that overlap one that was placed before drawn anew, with random axes or a common one
+/// (unit vector): while they are dilute this leaves them as in equilibrium to first order in the density, where pushing
+/// them apart would leave too many touching (docs/decisions/0012-random-start.md). Where they are not, overlaps remain.
+/// In the order of ids.
 Rods scattered_rods(const Scene& scene, const Box& box, const std::optional<Vec3>& common_axis);
 
 }  // namespace jostle

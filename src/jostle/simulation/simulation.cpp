@@ -19,8 +19,8 @@ constexpr double margin = 0.02;
 /// How far rods go before the neighbour list is built again: this at the default step, less at shorter ones (the
 /// shorter the step, the less often lists are built).
 constexpr double travel_per_diameter = 0.5, travel_per_length = 0.13, displacement_at_default_step = 0.07;
-/// Where fewer than a crowd fill a volume of (L + D)^3, it is rods more than pairs that a list costs time for: then
-/// rods go farther, at most so many times as far.
+/// Up to so many times as far at longer steps, where fewer than a crowd fill a volume of (L + D)^3: it is rods more
+/// than pairs that a list costs time for then.
 constexpr double crowd = 3.0, most_travel_when_dilute = 2.0;
 /// How far rods may be pushed by others before all their neighbours are looked at: at most so far, and so many mean
 /// Brownian displacements, for these bring rods together. Without noise pushes add up through crowds.
@@ -81,15 +81,17 @@ void Simulation::take_over_rods() {
 void Simulation::find_allowances() {
     push_allowance_ = most_push_allowance * mean_diameter_;
     travel_ = travel_per_diameter * mean_diameter_ + travel_per_length * mean_length_;
-    if (box_.is_periodic()) {  // in an open one the volume does not tell how near rods are to each other
-        const double near =
-            static_cast<double>(rods_.size()) * std::pow(mean_length_ + mean_diameter_, 3.0) / box_.volume();
-        travel_ *= std::clamp(std::sqrt(crowd / near), 1.0, most_travel_when_dilute);
-    }
     if (settings_.kT == 0.0) return;
     const double displacement = mean_of(displacement_);
     push_allowance_ = std::min(push_allowance_, push_per_displacement * displacement);
-    travel_ *= std::min(1.0, std::pow(displacement / (displacement_at_default_step * mean_diameter_), 2.0 / 3.0));
+    double most_travel = 1.0;
+    if (box_.is_periodic()) {  // in an open one the volume does not tell how near rods are to each other
+        const double near =
+            static_cast<double>(rods_.size()) * std::pow(mean_length_ + mean_diameter_, 3.0) / box_.volume();
+        most_travel = std::clamp(std::sqrt(crowd / near), 1.0, most_travel_when_dilute);
+    }
+    travel_ *=
+        std::min(most_travel, std::pow(displacement / (displacement_at_default_step * mean_diameter_), 2.0 / 3.0));
 }
 
 /// What follows from the sizes of the rods alone: these change where cells grow.
