@@ -142,12 +142,15 @@ PopulationGrowth population_growth(const Scene& scene, double time) {
 }
 
 void print_cost(const Scene& scene, const Population& population, double phi, double dt) {
-    const double equilibration = scene.time.equilibration.value_or(0.25 * scene.time.production);
-    const double steps = std::ceil((equilibration + scene.time.production) / dt);
+    // In whole rows of the series, as they are run.
+    const auto every = static_cast<double>(scene.output.series_every);
+    const auto in_rows = [&](double time) { return every * std::ceil(time / (dt * every) - 1e-9); };
+    const double steps = in_rows(scene.time.equilibration.value_or(0.25 * scene.time.production)) +
+                         std::max(every, in_rows(scene.time.production));
     const PopulationGrowth growth = population_growth(scene, steps * dt);
     const double count = population.count * growth.end;
     if (scene.growth.rate > 0.0) print("N in the end, about", fmt::format("{:.3g}", count));
-    const double rows = steps / static_cast<double>(scene.output.series_every);
+    const double rows = steps / every;
     const double frames =
         scene.output.trajectory_every > 0 ? steps / static_cast<double>(scene.output.trajectory_every) : 0.0;
     print("steps", fmt::format("{:.6g}{}", steps,
@@ -165,6 +168,7 @@ ExitCode check_command(const std::string& scene_path) {
     const auto from_file = rods_from_file(scene, scene_path);
     const Population population = population_of(scene, from_file);
     const Box box = box_of(scene, from_file);
+    if (from_file) beginning_of(scene, scene_path);  // which looks for overlaps
     const double phi = population.volume / box.volume();
     const auto mobility = make_mobility(scene, population.rods);
     const double dt = time_step(scene, *mobility, population.rods);

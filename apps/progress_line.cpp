@@ -26,7 +26,13 @@ ProgressLine::~ProgressLine() {
     if (terminal_ && shown_) std::fputc('\n', stderr);
 }
 
-void ProgressLine::show(const Now& now, bool force) {
+bool ProgressLine::is_due() const {
+    const double since_last = std::chrono::duration<double>(Clock::now() - last_).count();
+    return !quiet_ &&
+           (!begun_ || since_last >= (terminal_ ? seconds_between_terminal_lines : seconds_between_plain_lines));
+}
+
+void ProgressLine::show(const Now& now) {
     if (quiet_) return;
     const auto here = Clock::now();
     if (!begun_) {
@@ -36,8 +42,6 @@ void ProgressLine::show(const Now& now, bool force) {
         first_fraction_ = now.fraction_done;
         return;
     }
-    const double since_last = std::chrono::duration<double>(here - last_).count();
-    if (!force && since_last < (terminal_ ? seconds_between_terminal_lines : seconds_between_plain_lines)) return;
     last_ = here;
     const double elapsed = std::chrono::duration<double>(here - begin_).count();
     const double steps_per_second = static_cast<double>(now.step - first_step_) / (elapsed > 0.0 ? elapsed : 1.0);

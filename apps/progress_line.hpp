@@ -22,8 +22,9 @@ public:
     explicit ProgressLine(bool quiet);
     ~ProgressLine();
 
-    /// Shows the state if it is time to; `force`: in any case.
-    void show(const Now& now, bool force = false);
+    /// Whether it is time to show the state.
+    bool is_due() const;
+    void show(const Now& now);
 
 private:
     using Clock = std::chrono::steady_clock;

@@ -48,9 +48,10 @@ public:
         if (scene.time.equilibration) fixed_rows_ = rows(*scene.time.equilibration) + production_rows_;
     }
 
-    bool is_over(const SeriesTable& series) const {
+    bool is_over(const SeriesTable& series) {
         if (fixed_rows_ > 0) return series.rows() >= fixed_rows_;
-        if (series.rows() < production_rows_) return false;
+        if (series.rows() < production_rows_ || series.rows() == rows_looked_at_) return false;
+        rows_looked_at_ = series.rows();
         const std::size_t look_every = std::max<std::size_t>(1, production_rows_ / looks_per_production);
         if (series.rows() % look_every != 0) return false;
         const ProductionWindow window = production_window(scene_, series);
@@ -69,6 +70,7 @@ private:
     const Scene& scene_;
     std::size_t production_rows_ = 1;
     std::size_t fixed_rows_ = 0;  ///< 0: equilibration is detected
+    std::size_t rows_looked_at_ = 0;
 };
 
 /// A run from its beginning, or from its checkpoint, to its end.
@@ -99,7 +101,7 @@ public:
             if (scene_.growth.rate > 0.0) files_.append_lineage(simulation_);
             if (simulation_.rods().size() == 0) continue;
             write_what_is_due();
-            show_progress();
+            if (progress_.is_due()) show_progress();
             if (const std::string reason = reason_to_stop(); !reason.empty()) return stop_early(reason);
         }
         return finish();
@@ -140,24 +142,23 @@ private:
         return "";
     }
 
-    void show_progress(bool force = false) {
+    void show_progress() {
         const SeriesTable& series = files_.series();
         const Rods& rods = simulation_.rods();
         const auto last = [&](const char* column) {
             return series.rows() == 0 ? std::nan("") : series.column(column).back();
         };
-        progress_.show(
-            {simulation_.clock().step, simulation_.clock().time, total_volume(rods) / simulation_.box().volume(),
-             last("Z"), sums_.run_max_overlap / smallest_diameter(scene_, rods), last("iterations"), last("contacts"),
-             length_.fraction_done(series.rows())},
-            force);
+        progress_.show({simulation_.clock().step, simulation_.clock().time,
+                        total_volume(rods) / simulation_.box().volume(), last("Z"),
+                        sums_.run_max_overlap / smallest_diameter(scene_, rods), last("iterations"), last("contacts"),
+                        length_.fraction_done(series.rows())});
     }
 
     ExitCode stop_early(const std::string& reason) {
         checkpoint();
         write_trajectory();
         record_.write(simulation_, reason);
-        show_progress(true);
+        show_progress();
         if (!options_.quiet)
             std::fprintf(stderr, "\njostle: stopped at step %llu (%s); run the same command again to go on\n",
                          static_cast<unsigned long long>(simulation_.clock().step), reason.c_str());
@@ -176,6 +177,7 @@ private:
 
     ExitCode give_up(const StepReport& report, const std::string& failure) {
         write_post_mortem(directory_.file("post_mortem.json"), simulation_, report, failure);
+        write_trajectory();
         record_.write(simulation_, failure);
         std::fprintf(stderr, "jostle: step %llu failed: %s\n%s  details: %s\n",
                      static_cast<unsigned long long>(report.step), failure.c_str(), advice(report).c_str(),
@@ -190,7 +192,7 @@ private:
         const auto summary = summarise(scene_, simulation_, files_.series(), overlap);
         replace_file(directory_.file("summary.json"), summary.dump(2) + "\n");
         record_.write(simulation_, "done");
-        show_progress(true);
+        show_progress();
         if (options_.json)
             std::printf("%s\n", summary.dump(2).c_str());
         else if (!options_.quiet)

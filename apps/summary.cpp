@@ -8,6 +8,7 @@
 #include "jostle/io/series_columns.hpp"
 #include "jostle/io/units.hpp"
 #include "jostle/math/symmetric_eigen.hpp"
+#include "jostle/simulation/step_failure.hpp"
 #include "jostle/statistics/equilibration.hpp"
 #include "jostle/statistics/jackknife.hpp"
 #include "jostle/statistics/time_series.hpp"
@@ -187,8 +188,10 @@ ProductionWindow production_window(const Scene& scene, const SeriesTable& series
     ProductionWindow window;
     if (scene.time.equilibration) {
         window.equilibration_time = *scene.time.equilibration;
-        // Rows are means over the steps before them: the first row of the window begins at the end of equilibration.
-        while (window.first_row < time.size() && time[window.first_row] <= window.equilibration_time * (1.0 + 1e-12))
+        // Rows are means over the steps before them: the first of the window begins at the end of equilibration or
+        // later.
+        const auto begin_of = [&](std::size_t row) { return row == 0 ? 0.0 : time[row - 1]; };
+        while (window.first_row < time.size() && begin_of(window.first_row) < window.equilibration_time * (1.0 - 1e-12))
             ++window.first_row;
         return window;
     }
@@ -246,7 +249,7 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     summary["equilibration_time"] = window.equilibration_time;
     summary["equilibrated"] = window.equilibrated;
     summary["production_rows"] = series.rows() - std::min(first, series.rows());
-    summary["max_overlap"] = run_max_overlap / *std::max_element(rods.diameter.begin(), rods.diameter.end());
+    summary["max_overlap"] = run_max_overlap / smallest_diameter(scene, rods);
     Json oracles = Json::object();
     const bool free = scene.motion.self_propulsion == 0.0 && scene.springs.file.empty();
     if (thermal && free && !grows && all_alike(rods))

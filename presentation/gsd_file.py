@@ -1,7 +1,7 @@
 """GSD, schema hoomd 1.4: OVITO draws the rods as spherocylinders, freud reads them.
 
 A shape belongs to a type there, so rods of one length and diameter are a type. Where a run has more than 64 kinds,
-lengths are drawn in classes of equal width, and the exact ones stand in log/particles/length.
+lengths and diameters are drawn in classes of equal width; the exact ones stand in log/particles/length and particles/diameter.
 """
 
 import gsd.fl
@@ -35,17 +35,25 @@ def write(path, trajectory):
 def snapshot(frame, kinds):
     made = gsd.hoomd.Snapshot()
     made.configuration.step = frame.step
-    made.configuration.box = [*frame.edges, 0, 0, 0]
+    made.configuration.box = [*edges_around(frame), 0, 0, 0]
     rods = made.particles
     rods.N = len(frame)
     rods.types, rods.type_shapes = kinds.names, kinds.shapes
     rods.typeid = kinds.of(frame.length, frame.diameter)
+    rods.diameter = frame.diameter
     rods.position, rods.image = centred(frame)
     rods.orientation = turning_z_to(frame.axis)
     made.log["time"] = np.array([frame.time])
     made.log["particles/length"] = frame.length.astype(np.float32)
     made.log["particles/id"] = frame.id
     return made
+
+
+def edges_around(frame):
+    """GSD knows no open directions: there the box is made so wide that it holds all rods."""
+    farthest = np.abs(frame.centre - 0.5 * frame.edges).max(axis=0, initial=0.0)
+    around = 2.0 * farthest + (frame.length + frame.diameter).max(initial=0.0)
+    return np.where(frame.periodic, frame.edges, np.maximum(frame.edges, around))
 
 
 def centred(frame):

@@ -213,7 +213,10 @@ RODS_FILES = {
     "column twice": ("x,y,z,nx,ny,nz,x\n1,1,1,1,0,0,2\n", 'rods.csv:1: the column "x" stands twice'),
     "bad number": (HEADER + "1,1,1,1,0,0\n5,5,five,1,0,0\n", "rods.csv:3: ", '"five"', "z"),
     "not finite": (HEADER + "1,1,1,1,0,0\n5,nan,5,1,0,0\n", "rods.csv:3: ", "nan", "y"),
-    "cell missing": (HEADER + "1,1,1,1,0,0\n5,5,5,1\n", "rods.csv:3: ", "ny"),
+    "cell too many": (HEADER + "1,1,1,1,0,0\n5,5,5,1,0,0,7\n", "rods.csv:3: 7 cells, but the header names 6"),
+    "too large": (HEADER + "1e300,1,1,1,0,0\n", "rods.csv:2: x = 1e300 does not lie within 1e-30 and 1e30"),
+    "too small": ("x,y,z,nx,ny,nz,diameter\n1,1,1,1,0,0,1e-40\n", "rods.csv:2: diameter = 1e-40"),
+    "cell missing": (HEADER + "1,1,1,1,0,0\n5,5,5,1\n", "rods.csv:3: 4 cells, but the header names 6"),
     "no direction": (HEADER + "1,1,1,0,0,0\n", "rods.csv:2: ", "has no direction"),
     "negative length": ("x,y,z,nx,ny,nz,length\n1,1,1,1,0,0,-2\n", "rods.csv:2: ", "length = -2 is negative"),
     "no diameter": ("x,y,z,nx,ny,nz,diameter\n1,1,1,1,0,0,0\n", "rods.csv:2: ", "diameter = 0 is not positive"),
@@ -233,8 +236,7 @@ def test_rods_file(finished_copy, name):
     before = snapshot(finished_copy)
     require_one_line(command(finished_copy, "run", "scene.toml", "--out", "new"), *parts)
     require_one_line(command(finished_copy, "run", "scene.toml", "--out", "run", "--fresh"), *parts)
-    if "overlap" not in name:  # `check` makes no start, so it cannot know
-        require_one_line(command(finished_copy, "check", "scene.toml"), *parts)
+    require_one_line(command(finished_copy, "check", "scene.toml"), *parts)
     assert snapshot(finished_copy) == before
 
 

@@ -71,3 +71,20 @@ def test_a_population_that_dies_out_ends_well(tmp_path):
     assert sum(column(tmp_path / "run" / "lineage.csv", "birth")) == 0
     again = run(tmp_path)
     assert again.returncode == DONE and "all cells have died" in again.stderr
+
+
+def test_soft_cells_that_have_died_out_go_on(tmp_path):
+    write_scene(tmp_path, changed(CELLS, growth={"death_rate": 20.0}, contact={"model": "wca"}))
+    for _ in range(2):
+        result = run(tmp_path)
+        assert result.returncode == DONE and "all cells have died" in result.stderr
+
+
+def test_swimmers_from_a_file_that_divide_take_little_memory(tmp_path):
+    """Daughters' ids there begin at 2^31."""
+    (tmp_path / "rods.csv").write_text("x,y,z,nx,ny,nz\n5,5,5,1,0,0\n10,10,10,0,1,0\n")
+    write_scene(tmp_path, changed(CELLS, rods={"count": None, "start": "file", "file": "rods.csv"},
+                                  growth={"death_rate": 0.0}, motion={"self_propulsion": 1.0}))
+    folder = finish(tmp_path)
+    assert max(column(folder / "lineage.csv", "id")) >= 2**31
+    assert (folder / "checkpoint").stat().st_size < 100000

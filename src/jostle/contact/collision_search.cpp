@@ -81,7 +81,8 @@ double CollisionSearch::find(const Rods& rods, const Box& box, const RodMotion& 
     reach_.resize(rods.size());
     glance_.resize(rods.size());
     parallel_for(rods.size(), [&](std::size_t i) {
-        reach_[i] = std::max(motion.displacement[i] + motion.touching.part[i] + motion.push_allowance, 0.5 * range_);
+        reach_[i] =
+            std::max(motion.displacement[i] + motion.touching.part[i] + motion.push_allowance, 0.5 * motion.range);
         glance_[i] = {rods.centre[i],
                       in_float(rods.axis[i]),
                       in_float(motion.centre[i] - rods.centre[i]),
@@ -116,8 +117,8 @@ void CollisionSearch::search_block(std::size_t block, const Rods& rods, const Bo
         for (std::size_t k = 0; k < count; ++k) {
             const float size = batch.half_i[k] + batch.half_j[k] + batch.radii[k];
             const float slack = batch.bound_after[k] - bound_error * size - touching[k];
-            const bool clear = batch.gap[k] - gap_error * batch.radii[k] > static_cast<float>(range_);
-            if (clear && slack >= static_cast<float>(margin_))
+            const bool clear = batch.gap[k] - gap_error * batch.radii[k] > static_cast<float>(motion.range);
+            if (clear && slack >= static_cast<float>(motion.margin))
                 found.bystanders.push_back(
                     {rows[k], slack, {batch.normal[0][k], batch.normal[1][k], batch.normal[2][k]}, in_block[k]});
             else
@@ -162,12 +163,12 @@ void CollisionSearch::look_closely(const PairName& name, std::uint16_t in_block,
     const NearestPoints nearest_after = nearest_points(after);
     const double distance_after = norm(nearest_after.separation), gap_after = distance_after - after.radii;
     const bool passed_through = dot(nearest.separation, nearest_after.separation) <= 0.0;
-    const bool always = gap < range_ || passed_through;
+    const bool always = gap < motion.range || passed_through;
     double touching = most_touching(motion.touching, name);
-    if (always || gap_after - touching < margin_) {
+    if (always || gap_after - touching < motion.margin) {
         const std::size_t known = found.contacts.size();
         touching = append(name, before, nearest, distance, after, motion.touching, found.contacts);
-        if (always || gap_after - touching < margin_) return;
+        if (always || gap_after - touching < motion.margin) return;
         found.contacts.resize(known);
     }
     const double slack = gap_after - touching - 1e-6 * after.radii;

@@ -24,6 +24,8 @@ struct RodMotion {
     std::span<const double> displacement;  ///< (N) by the known motion, of any point of the rod, at most
     double push_allowance;                 ///< rods that forces push farther have all their neighbours looked at
     double travel;                         ///< of the neighbour list
+    double margin;  ///< pairs with a gap wider than touching by this are bystanders; at most 2 push_allowance
+    double range;   ///< contacts with a smaller gap are always taken (0: those that overlap)
     Touching touching;
 };
 
@@ -59,9 +61,6 @@ inline PairName pair_of(const Contacts& contacts, std::size_t l) {
 /// on the history of the list.
 class CollisionSearch {
 public:
-    /// `margin`: a length; `range`: contacts with a smaller gap are always taken (0: those that overlap).
-    CollisionSearch(double margin, double range) : neighbours_(0.0), margin_(margin), range_(range) {}
-
     /// The contacts of the step. Returns the largest overlap before the known motion, max(0, -gap).
     double find(const Rods& rods, const Box& box, const RodMotion& motion, Contacts& contacts);
 
@@ -111,8 +110,7 @@ private:
     static bool may_meet(const Bystander& bystander, const Push& i, const Push& j);
     bool is_contact(const PairName& name, const Contacts& contacts) const;
 
-    NeighbourList neighbours_;
-    double margin_, range_;
+    NeighbourList neighbours_{0.0};
     std::vector<double> reach_;      ///< (N) displacement + touching + push allowance
     std::vector<RodGlance> glance_;  ///< (N)
     std::vector<Found> blocks_;

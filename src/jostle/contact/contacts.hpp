@@ -32,7 +32,8 @@ enum class ContactFeature : std::uint8_t {
     pushed,    ///< the points that are nearest once contact forces have pushed the rods (pushed_overlaps.hpp)
 };
 
-/// Contacts found, in the order of (i, j, image, feature): the same for any thread count and any neighbour list.
+/// Contacts found, in the order of (i, j, image), of a pair the nearest points first; those added within a step come
+/// last: the same for any thread count and any neighbour list.
 struct Contacts {
     std::vector<Contact> contact;
     std::vector<Image> image;  ///< rod j meets i displaced by image * box edges

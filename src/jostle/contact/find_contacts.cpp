@@ -30,12 +30,4 @@ double find_contacts(const Rods& rods, const Box& box, const NeighbourList& neig
     return parallel_max(overlaps.size(), 0.0, [&](std::size_t block) { return overlaps[block]; });
 }
 
-double gap_at(const Contacts& contacts, std::size_t l, const Rods& rods, const Box& box, std::span<const Vec3> centre,
-              std::span<const Vec3> axis) {
-    const Contact& contact = contacts.contact[l];
-    const Vec3 displacement = box.displacement(contacts.image[l]);
-    return gap_of_contact(contact, contacts.feature[l],
-                          pair_geometry(rods, contact.i, contact.j, displacement, centre, axis));
-}
-
 }  // namespace jostle

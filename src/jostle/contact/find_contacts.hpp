@@ -14,10 +14,4 @@ namespace jostle {
 double find_contacts(const Rods& rods, const Box& box, const NeighbourList& neighbours, std::span<const double> reach,
                      Contacts& contacts);
 
-/// The gap of contact `l` when the rods lie elsewhere: `centre` and `axis` replace those of `rods` (theory, eq. 3.4).
-///
-/// The contact's points follow their feature; a pair that has passed through itself counts as overlapping.
-double gap_at(const Contacts& contacts, std::size_t l, const Rods& rods, const Box& box, std::span<const Vec3> centre,
-              std::span<const Vec3> axis);
-
 }  // namespace jostle

@@ -12,27 +12,34 @@ Contacts pushed_overlaps(const Contacts& contacts, const Rods& rods, const Box& 
     parallel_for(contacts.size(), [&](std::size_t l) {
         const PairName name = pair_of(contacts, l);
         if (l > 0 && name == pair_of(contacts, l - 1)) return;
-        overlaps[l] = pair_gap(pair_geometry_after(rods, box, name, after)) < -most ? 1 : 0;
+        const PairGeometry pair = pair_geometry_after(rods, box, name, after);
+        overlaps[l] = gap_of_contact(contacts.contact[l], ContactFeature::nearest, pair) < -most ? 1 : 0;
     });
-    std::vector<PairName> names;
+    std::vector<std::pair<PairName, std::size_t>> first;  // of the contacts of each
     for (std::size_t l = 0; l < overlaps.size(); ++l)
-        if (overlaps[l] == 1) names.push_back(pair_of(contacts, l));
-    std::sort(names.begin(), names.end());
-    names.erase(std::unique(names.begin(), names.end()), names.end());
+        if (overlaps[l] == 1) first.emplace_back(pair_of(contacts, l), l);
+    std::sort(first.begin(), first.end());
+    first.erase(
+        std::unique(first.begin(), first.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
+        first.end());
 
     Contacts found;
-    for (const PairName& name : names) {
+    for (const auto& [name, l] : first) {
         const PairGeometry pair = pair_geometry_after(rods, box, name, after);
         const NearestPoints nearest = nearest_points(pair);
         const double distance = norm(nearest.separation);
         if (!(distance > 0.0)) continue;  // the axes cross: no normal can be told
+        const double side = dot(nearest.separation, contacts.contact[l].normal) < 0.0 ? -1.0 : 1.0;  // passed through?
         Contact contact;
         contact.i = name.i;
         contact.j = name.j;
-        contact.normal = nearest.separation / distance;
+        contact.normal = (side / distance) * nearest.separation;
         contact.arm_i = nearest.s_i;
         contact.arm_j = nearest.s_j;
-        contact.gap = contact.room = distance - pair.radii;
+        const Vec3 between = rods.centre[name.j] + box.displacement(name.image) - rods.centre[name.i];
+        const Vec3 points = between + contact.arm_j * rods.axis[name.j] - contact.arm_i * rods.axis[name.i];
+        contact.gap = dot(points, contact.normal) - pair.radii;
+        contact.room = side * distance - pair.radii;
         found.push_back(contact, name.image, ContactFeature::pushed);
     }
     return found;

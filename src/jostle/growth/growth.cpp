@@ -14,6 +14,7 @@ namespace {
 
 constexpr int id_bits = 53;           ///< ids stay exact as double, as which tables hold them
 constexpr double least_factor = 0.2;  ///< of a drawn rate or threshold to its mean
+constexpr double least_share = 1e-9;  ///< of its rate, by which a stalled cell grows: it must find back
 
 double noisy_factor(double deviation, double normal) {
     return std::max(least_factor, 1.0 + deviation * normal);
@@ -81,19 +82,20 @@ CellCycle Growth::newborn(std::uint64_t id, double length, double diameter, std:
 
 void Growth::lengthen(Rods& rods, std::span<const std::uint32_t> rows, std::span<const ContactForce> forces,
                       double time_step) const {
-    std::vector<double> share;  // of its rate that a cell grows by
     if (law_.stall_force) {
-        share.assign(rods.size(), 1.0);
+        std::vector<double> compression(rods.size(), 0.0);
         parallel_for(rows.size(), [&](std::size_t k) {
             const std::uint32_t row = rows[k];
-            if (rods.length[row] == 0.0) return;
-            const double compression = -dot(forces[k].lever, rods.axis[row]) / rods.length[row];
-            share[row] = std::clamp(1.0 - compression / *law_.stall_force, 0.0, 1.0);
+            if (rods.length[row] > 0.0) compression[row] = -dot(forces[k].lever, rods.axis[row]) / rods.length[row];
+        });
+        parallel_for(rods.size(), [&](std::size_t i) {
+            double& share = rods.cycle[i].share;
+            share /= share + std::max(0.0, compression[i] / *law_.stall_force);
+            share = std::max(share, least_share);
         });
     }
-    parallel_for(rods.size(), [&](std::size_t i) {
-        rods.length[i] += rods.cycle[i].growth_rate * time_step * (share.empty() ? 1.0 : share[i]);
-    });
+    parallel_for(rods.size(),
+                 [&](std::size_t i) { rods.length[i] += rods.cycle[i].share * rods.cycle[i].growth_rate * time_step; });
 }
 
 std::vector<LineageEvent> Growth::divide(Rods& rods, const Box& box, std::uint64_t step, double time_step) const {
@@ -144,15 +146,20 @@ LineageEvent Growth::split(Rods& rods, std::size_t row, const Box& box, std::uin
     const Vec3 front = rods.centre[row] + step_along;
     const Image image = rods.image[row];
 
+    const double share = rods.cycle[row].share;
+
     rods.centre[row] = rods.centre[row] - step_along;
+    if (law_.daughters == DaughterDirection::opposite) rods.axis[row] = -axis;
     rods.length[row] = length;
     rods.cycle[row] = newborn(mother, length, diameter, step, divisions + 1);
+    rods.cycle[row].share = share;
     box.wrap(rods.centre[row], rods.image[row]);
 
-    rods.push_back(daughter, front, law_.daughters == DaughterDirection::same ? axis : -axis, length, diameter);
+    rods.push_back(daughter, front, axis, length, diameter);
     rods.image.back() = image;
     if (!rods.speed.empty()) rods.speed.push_back(rods.speed[row]);
     rods.cycle.push_back(newborn(daughter, length, diameter, step, divisions + 1));
+    rods.cycle.back().share = share;
     box.wrap(rods.centre.back(), rods.image.back());
     return {LineageEvent::Kind::birth, daughter, mother, length};
 }

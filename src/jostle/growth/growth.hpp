@@ -35,8 +35,8 @@ public:
     /// The cycles of the rods at the start, which all are as if just born. Throws InputError if an id is too large.
     void found(Rods& rods) const;
 
-    /// One step of growth: rate dt, less where a cell is compressed (dL/dt = rate (1 - F/F_stall), at least 0).
-    /// `rows`: of the rods with contacts; `forces`: (rows.size()) on them; the compression is F = -lever.n/L.
+    /// One step of growth: rate dt, less where a cell is compressed (dL/dt = rate (1 - F/F_stall), at least 0; theory,
+    /// eq. 5.2). `rows`: of the rods with contacts; `forces`: (rows.size()) on them; the compression is F = -lever.n/L.
     void lengthen(Rods& rods, std::span<const std::uint32_t> rows, std::span<const ContactForce> forces,
                   double time_step) const;
 

@@ -16,7 +16,7 @@ namespace {
 
 // The first byte is no text and the last is a newline, so that a file mangled as text no longer matches.
 constexpr std::string_view magic = "\x89JOSTLE\n";
-constexpr std::uint32_t format_version = 4;
+constexpr std::uint32_t format_version = 5;
 constexpr std::size_t header_bytes = 24;
 constexpr std::size_t checksum_bytes = 8;
 constexpr const char* start_again = "Start the run again with --fresh";
@@ -110,6 +110,7 @@ void put_forces(Payload& writer, const std::vector<LastForce>& forces) {
         writer.put(force.i);
         writer.put(force.j);
         writer.put(static_cast<std::uint8_t>(force.feature));
+        writer.put(static_cast<std::uint8_t>(force.upper));
         writer.put(force.gamma);
     }
 }
@@ -121,6 +122,7 @@ std::vector<LastForce> take_forces(ByteReader& reader, std::size_t rods) {
         force.i = reader.take<std::uint32_t>();
         force.j = reader.take<std::uint32_t>();
         const auto feature = reader.take<std::uint8_t>();
+        force.upper = reader.take<std::uint8_t>() != 0;
         force.gamma = reader.take<double>();
         if (force.i > force.j || force.j >= rods || feature > static_cast<std::uint8_t>(ContactFeature::end_of_j))
             throw std::out_of_range("a contact force of rods that are not there");

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "jostle/io/csv_cells.hpp"
 #include "jostle/io/durable_file.hpp"
+#include "jostle/simulation/scene_keys.hpp"
 
 namespace jostle {
 
@@ -36,8 +38,12 @@ Places places_of(const std::string& path, const CsvColumns& columns, std::string
 }
 
 double number(const std::string& path, int line, std::string_view name, std::string_view text) {
-    if (const auto value = number_of_cell(text)) return *value;
-    throw refused_file(path, fmt::format("{} = \"{}\" is not a finite number", name, text), "", line);
+    const auto value = number_of_cell(text);
+    if (!value) throw refused_file(path, fmt::format("{} = \"{}\" is not a finite number", name, text), "", line);
+    const double magnitude = std::fabs(*value);
+    if (magnitude != 0.0 && !(magnitude >= Range::smallest && magnitude <= Range::largest))
+        throw refused_file(path, fmt::format("{} = {} does not lie within 1e-30 and 1e30", name, text), "", line);
+    return *value;
 }
 
 }  // namespace
@@ -46,24 +52,27 @@ void for_each_csv_row(const std::string& path, const CsvColumns& columns,
                       const std::function<void(int, std::span<const std::optional<double>>)>& row) {
     const std::string content = read_file(path);
     std::string_view rest = content;
+    if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);  // what some programs put before UTF-8
     Places places;
+    std::size_t width = 0;  // of a line, in cells: the header names each column once
     std::vector<std::string_view> cells;
     std::vector<std::optional<double>> values(columns.names.size());
     for (int line = 1; !rest.empty(); ++line) {
         const std::string_view text = next_line(rest);
         if (line == 1) {
             places = places_of(path, columns, text);
+            width = static_cast<std::size_t>(
+                std::count_if(places.begin(), places.end(), [](const auto& p) { return p.has_value(); }));
             continue;
         }
         if (text.empty()) continue;
         split_cells(text, cells);
+        if (cells.size() != width)
+            throw refused_file(path, fmt::format("{} cells, but the header names {}", cells.size(), width),
+                               cells.size() < width ? "Was the file cut short?" : "Numbers have points, not commas",
+                               line);
         for (std::size_t k = 0; k < values.size(); ++k) {
             if (!places[k]) continue;
-            if (*places[k] >= cells.size())
-                throw refused_file(path,
-                                   fmt::format("{} cells, but column \"{}\" is the {}th", cells.size(),
-                                               columns.names[k], *places[k] + 1),
-                                   "Was the file cut short?", line);
             values[k] = number(path, line, columns.names[k], cells[*places[k]]);
         }
         row(line, values);

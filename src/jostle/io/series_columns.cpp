@@ -63,8 +63,9 @@ std::vector<SeriesColumn> series_columns(const Scene& scene) {
         {"contacts", "1", "", "pairs of points that might touch, mean over the steps since the last row", ""});
     columns.push_back(
         {"active_contacts", "1", "", "contacts with a force, mean over the steps since the last row", ""});
-    columns.push_back(
-        {"iterations", "1", "", "applications of A per step, mean over the steps since the last row", ""});
+    columns.push_back({"iterations", "1", "",
+                       "sweeps over contacts, or applications of A, per step: mean over the steps since the last row",
+                       ""});
     columns.push_back({"residual", length, "max |H|",
                        "residual of the contact problem, largest of the steps since the last row (the paper's norm, "
                        "without unit, if solver.residual = \"paper\")",

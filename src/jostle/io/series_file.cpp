@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -169,7 +170,7 @@ SeriesTable read_series(const std::string& path) {
 
 void write_series_description(const std::string& path, const std::vector<SeriesColumn>& columns) {
     nlohmann::ordered_json description;
-    description["file"] = "series.csv";
+    description["file"] = std::filesystem::path(path).filename().replace_extension(".csv").string();
     for (const SeriesColumn& column : columns)
         description["columns"].push_back({{"name", column.name},
                                           {"unit", column.unit},

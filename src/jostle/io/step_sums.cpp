@@ -24,7 +24,6 @@ void StepSums::add(const StepReport& report) {
     residual = std::max(residual, report.residual);
     max_overlap = std::max(max_overlap, report.max_overlap);
     run_max_overlap = std::max(run_max_overlap, report.max_overlap);
-    run_iterations += static_cast<double>(report.iterations);
 }
 
 void StepSums::add(const StepReport& report, const Simulation& simulation) {
@@ -43,15 +42,14 @@ void StepSums::look_at_swimmers(const Scene& scene, const Simulation& simulation
 void StepSums::start_row() {
     StepSums fresh;
     fresh.run_max_overlap = run_max_overlap;
-    fresh.run_iterations = run_iterations;
     fresh.active_stress = std::move(active_stress);
     fresh.field = std::move(field);
     *this = std::move(fresh);
 }
 
 std::vector<double> StepSums::to_numbers() const {
-    std::vector<double> numbers = {steps,       contacts,        active_contacts, iterations, residual,
-                                   max_overlap, run_max_overlap, run_iterations,  rods};
+    std::vector<double> numbers = {steps,    contacts,    active_contacts, iterations,
+                                   residual, max_overlap, run_max_overlap, rods};
     for (const Mat3* sum : {&collision_virial, &spring_virial, &centre_of_mass_virial, &centre_line_virial})
         numbers.insert(numbers.end(), sum->m.begin(), sum->m.end());
     const auto append = [&](const std::vector<double>& more) {  // 0 numbers where there is no such thing
@@ -64,7 +62,7 @@ std::vector<double> StepSums::to_numbers() const {
 }
 
 StepSums StepSums::from_numbers(const std::vector<double>& numbers) {
-    constexpr std::size_t sums_count = 9 + 4 * 9;
+    constexpr std::size_t sums_count = 8 + 4 * 9;
     const auto require = [](bool sound) {
         if (!sound)
             throw InputError({.key = "checkpoint",
@@ -80,9 +78,8 @@ StepSums StepSums::from_numbers(const std::vector<double>& numbers) {
     sums.residual = numbers[4];
     sums.max_overlap = numbers[5];
     sums.run_max_overlap = numbers[6];
-    sums.run_iterations = numbers[7];
-    sums.rods = numbers[8];
-    auto from = numbers.begin() + 9;
+    sums.rods = numbers[7];
+    auto from = numbers.begin() + 8;
     for (Mat3* sum :
          {&sums.collision_virial, &sums.spring_virial, &sums.centre_of_mass_virial, &sums.centre_line_virial}) {
         std::copy(from, from + 9, sum->m.begin());

@@ -25,7 +25,6 @@ struct StepSums {
     double max_overlap = 0.0;  ///< the largest, a length
     // since the start of the run
     double run_max_overlap = 0.0;
-    double run_iterations = 0.0;
     // of swimmers
     std::optional<ActiveStress> active_stress;
     Mat3 active_virial;  ///< V times it, at the step of the row

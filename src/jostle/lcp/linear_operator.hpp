@@ -14,7 +14,7 @@ public:
     /// result = A x. Both have `size()` elements and do not overlap.
     virtual void apply(std::span<const double> x, std::span<double> result) const = 0;
 
-    /// The diagonal A_ll, all positive, `size()` elements.
+    /// The diagonal A_ll, `size()` elements: positive, or 0 where a force moves nothing (a sphere and its own image).
     virtual std::span<const double> diagonal() const = 0;
 };
 

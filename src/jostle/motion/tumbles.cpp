@@ -64,7 +64,7 @@ Tumbles::Tumbles(double rate, double duration) : rate_(rate), duration_(duration
 }
 
 std::uint64_t Tumbles::steps(double time_step) const {
-    return static_cast<std::uint64_t>(std::max(1.0, std::round(duration_ / time_step)));
+    return static_cast<std::uint64_t>(std::clamp(std::round(duration_ / time_step), 1.0, 0x1p53));
 }
 
 std::optional<Vec3> Tumbles::angular_velocity(std::uint64_t id, const StepContext& context) const {

@@ -8,7 +8,6 @@
 #include <numbers>
 #include <unordered_map>
 
-#include "jostle/contact/wca_forces.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/mobility/drag.hpp"
 #include "jostle/mobility/drag_mobility.hpp"
@@ -181,7 +180,6 @@ Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock, 
     if (scene.contact.model == ContactModel::wca) {
         settings.brownian_correction = false;
         settings.wca_energy = scene.contact.energy.value_or(scene.fluid.kT);
-        settings.range = (wca_range - 1.0) * *std::max_element(rods.diameter.begin(), rods.diameter.end());
     }
     settings.stress_conventions = scene.output.stress_conventions;
     settings.collision_moments = scene.output.stress_per_rod || scene.output.field_every > 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -36,6 +37,7 @@ struct Range {
     static constexpr double largest = 1e30;
 
     bool contains(double value) const {  // false for nan
+        if (value != 0.0 && std::fabs(value) < smallest) return false;
         return (lower_included ? value >= lower : value > lower) && (upper_included ? value <= upper : value < upper);
     }
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jostle/contact/wca_forces.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/rods/space_filling_order.hpp"
@@ -15,7 +16,7 @@ namespace {
 // Lengths in mean diameters, chosen by the time of a step: they change speed, and results within the tolerance.
 
 /// A pair whose gap after the known motion is wider than touching by this much is only watched.
-constexpr double margin = 0.02;
+constexpr double margin_per_diameter = 0.02;
 /// How far rods go before the neighbour list is built again: this at the default step, less at shorter ones (the
 /// shorter the step, the less often lists are built).
 constexpr double travel_per_diameter = 0.5, travel_per_length = 0.13, displacement_at_default_step = 0.07;
@@ -43,7 +44,6 @@ Simulation::Simulation(Box box, Rods rods, Clock clock, std::unique_ptr<Mobility
       mobility_(std::move(mobility)),
       motions_(std::move(motions)),
       settings_(settings),
-      search_(margin * mean_of(rods_.diameter), settings.range),
       warm_start_(std::move(last_forces)) {
     if (!(settings_.time_step > 0.0))
         throw InputError({.key = "time.step",
@@ -79,11 +79,13 @@ void Simulation::take_over_rods() {
 }
 
 void Simulation::find_allowances() {
+    margin_ = margin_per_diameter * mean_diameter_;
     push_allowance_ = most_push_allowance * mean_diameter_;
     travel_ = travel_per_diameter * mean_diameter_ + travel_per_length * mean_length_;
     if (settings_.kT == 0.0) return;
     const double displacement = mean_of(displacement_);
-    push_allowance_ = std::min(push_allowance_, push_per_displacement * displacement);
+    // Not below half the margin: the neighbour list must hold every pair that may come within it.
+    push_allowance_ = std::clamp(push_per_displacement * displacement, 0.5 * margin_, push_allowance_);
     double most_travel = 1.0;
     if (box_.is_periodic()) {  // in an open one the volume does not tell how near rods are to each other
         const double near =
@@ -99,6 +101,10 @@ void Simulation::find_sizes() {
     mobility_->update(rods_);
     mean_diameter_ = mean_of(rods_.diameter);
     mean_length_ = mean_of(rods_.length);
+    range_ = settings_.range;
+    if (settings_.wca_energy > 0.0)
+        range_ =
+            (wca_range - 1.0) * parallel_max(rods_.size(), 0.0, [this](std::size_t i) { return rods_.diameter[i]; });
     largest_shift_.assign(rods_.size(), 0.0);
     if (!settings_.brownian_correction) return;
     parallel_for(rods_.size(), [&](std::size_t i) {
@@ -113,7 +119,8 @@ RodMotion Simulation::motion() const {
     const auto shift = [this](const Contact& contact) {
         return settings_.brownian_correction ? shift_of(contact) : 0.0;
     };
-    return {moved_.centre, moved_.axis, displacement_, push_allowance_, travel_, {largest_shift_, shift}};
+    return {moved_.centre, moved_.axis, displacement_, push_allowance_,
+            travel_,       margin_,     range_,        {largest_shift_, shift}};
 }
 
 /// Every so many steps, a function of the state alone: a run that was stopped goes on with the same rows.

@@ -29,7 +29,7 @@ struct SimulationSettings {
     double kT = 0.0;                  ///< of the Brownian motion; 0 where there is none
     bool brownian_correction = true;  ///< shift, compliance, true gap, moments of the stress (theory, section 3)
     double wca_energy = 0.0;          ///< of the potential that rods repel each other by; 0: they are hard
-    double range = 0.0;               ///< contacts with a smaller gap are always taken; 0: as the step demands
+    double range = 0.0;               ///< contacts with a smaller gap are always taken; 0, or soft: as the step demands
     SolverMethod method = SolverMethod::automatic;
     LcpSettings lcp;                  ///< tolerance as a length
     bool warm_start = false;          ///< the solver begins from the forces of the last step
@@ -117,11 +117,11 @@ private:
 
     CollisionSearch search_;
     double mean_diameter_ = 0.0, mean_length_ = 0.0;
-    std::vector<double> largest_shift_;           ///< (N) each rod's part in the shift of a gap, at most
-    Velocities known_;                            ///< (N) U_known
-    Velocities by_springs_;                       ///< (N) the springs' part of it; (0) without springs
-    std::vector<double> displacement_;            ///< (N) by it, of any point of the rod, at most
-    double push_allowance_ = 0.0, travel_ = 0.0;  ///< of this step (RodMotion)
+    std::vector<double> largest_shift_;  ///< (N) each rod's part in the shift of a gap, at most
+    Velocities known_;                   ///< (N) U_known
+    Velocities by_springs_;              ///< (N) the springs' part of it; (0) without springs
+    std::vector<double> displacement_;   ///< (N) by it, of any point of the rod, at most
+    double push_allowance_ = 0.0, travel_ = 0.0, margin_ = 0.0, range_ = 0.0;  ///< of this step (RodMotion)
     struct {
         std::vector<Vec3> centre, axis;
     } moved_;                   ///< (N) the rods after the known motion

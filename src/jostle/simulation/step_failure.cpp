@@ -27,6 +27,7 @@ double smallest_diameter(const Scene& scene, const Rods& rods) {
 
 std::optional<std::string> step_failure(const StepReport& report, const Scene& scene, const Rods& rods) {
     if (report.status != LcpStatus::converged) return description(report.status);
+    if (report.max_overlap == 0.0) return std::nullopt;
     const double limit = scene.contact.overlap_limit * smallest_diameter(scene, rods);
     if (report.max_overlap > limit)
         return fmt::format("rods overlap by {:.3g}, more than contact.overlap_limit allows ({:.3g})",

@@ -22,7 +22,7 @@ struct StepReport {
     std::size_t rods = 0;                     ///< in the step
     LcpStatus status = LcpStatus::converged;  ///< if not converged, the rods have not been moved
     double residual = 0.0;         ///< of the contact problem, in the chosen measure (a length, or the paper's norm)
-    std::uint64_t iterations = 0;  ///< applications of A
+    std::uint64_t iterations = 0;  ///< sweeps, or applications of A
     std::uint64_t solves = 0;      ///< 1, or more where collisions reached beyond the first set of contacts
     std::size_t contacts = 0;
     std::size_t active_contacts = 0;  ///< with gamma > 0

@@ -11,7 +11,7 @@ namespace jostle {
 namespace {
 
 bool before(const LastForce& a, const LastForce& b) {
-    return std::tie(a.i, a.j, a.feature) < std::tie(b.i, b.j, b.feature);
+    return std::tie(a.i, a.j, a.feature, a.upper) < std::tie(b.i, b.j, b.feature, b.upper);
 }
 
 void sort(std::vector<LastForce>& forces) {
@@ -31,6 +31,14 @@ ContactFeature seen_from_the_other_rod(ContactFeature feature) {
     return feature;
 }
 
+LastForce force_of(const Contacts& contacts, std::size_t l, double gamma) {
+    const Contact& contact = contacts.contact[l];
+    const ContactFeature feature = contacts.feature[l];
+    const bool upper = (feature == ContactFeature::end_of_i && contact.arm_i > 0.0) ||
+                       (feature == ContactFeature::end_of_j && contact.arm_j > 0.0);
+    return {contact.i, contact.j, feature, upper, gamma};
+}
+
 }  // namespace
 
 WarmStart::WarmStart(std::vector<LastForce> forces) : forces_(std::move(forces)) {
@@ -41,7 +49,7 @@ void WarmStart::keep(const Contacts& contacts, std::span<const double> gamma) {
     forces_.clear();
     for (std::size_t l = 0; l < gamma.size(); ++l)
         if (gamma[l] > 0.0 && contacts.feature[l] != ContactFeature::pushed)  // no step begins with those
-            forces_.push_back({contacts.contact[l].i, contacts.contact[l].j, contacts.feature[l], gamma[l]});
+            forces_.push_back(force_of(contacts, l, gamma[l]));
     sort(forces_);  // contacts that were missed at first come last
 }
 
@@ -62,7 +70,7 @@ std::vector<double> WarmStart::guess(const Contacts& contacts) const {
     if (forces_.empty()) return {};
     std::vector<double> gamma(contacts.size(), 0.0);
     parallel_for(gamma.size(), [&](std::size_t l) {
-        const LastForce same = {contacts.contact[l].i, contacts.contact[l].j, contacts.feature[l]};
+        const LastForce same = force_of(contacts, l, 0.0);
         const auto found = std::lower_bound(forces_.begin(), forces_.end(), same, before);
         if (found != forces_.end() && !before(same, *found)) gamma[l] = found->gamma;
     });

@@ -13,6 +13,7 @@ namespace jostle {
 struct LastForce {
     std::uint32_t i = 0, j = 0;  ///< rows, i <= j
     ContactFeature feature = ContactFeature::nearest;
+    bool upper = false;  ///< of an end: that to which the axis points
     double gamma = 0.0;  ///< > 0
 
     bool operator==(const LastForce&) const = default;
@@ -37,7 +38,7 @@ public:
     /// none.
     std::vector<double> guess(const Contacts& contacts) const;
 
-    /// In the order of (i, j, feature).
+    /// In the order of (i, j, feature, upper).
     const std::vector<LastForce>& forces() const { return forces_; }
 
 private:

@@ -32,10 +32,13 @@ public:
     static ActiveStress from_numbers(std::span<const double> numbers);
 
 private:
+    std::size_t place_of(std::uint64_t id) const;
+    void know(const Rods& rods);
     void remember_new(const Rods& rods, const Box& box);
 
     std::uint64_t lag_, looks_ = 0;
-    std::vector<Vec3> newer_, older_;  ///< (largest id + 1) remembered positions; not numbers for unknown rods
+    std::vector<std::uint64_t> id_;    ///< (N) of the rods that were there at the last look, ascending
+    std::vector<Vec3> newer_, older_;  ///< (N) remembered positions; not numbers where there is none yet
 };
 
 }  // namespace jostle

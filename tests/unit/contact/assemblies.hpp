@@ -1,8 +1,10 @@
 #pragma once
 
 #include <random>
+#include <span>
 #include <vector>
 
+#include "jostle/contact/pair_contacts.hpp"
 #include "jostle/contact/segment_distance.hpp"
 #include "jostle/rods/box.hpp"
 
@@ -57,6 +59,15 @@ inline std::vector<BrutePair> brute_force_pairs(const Rods& rods, const Box& box
                         if (gap < range) pairs.push_back({i, j, image, gap});
                     }
     return pairs;
+}
+
+/// The gap of contact `l` when the rods lie elsewhere: `centre` and `axis` replace those of `rods`.
+inline double gap_at(const Contacts& contacts, std::size_t l, const Rods& rods, const Box& box,
+                     std::span<const Vec3> centre, std::span<const Vec3> axis) {
+    const Contact& contact = contacts.contact[l];
+    const Vec3 displacement = box.displacement(contacts.image[l]);
+    return gap_of_contact(contact, contacts.feature[l],
+                          pair_geometry(rods, contact.i, contact.j, displacement, centre, axis));
 }
 
 }  // namespace jostle::test

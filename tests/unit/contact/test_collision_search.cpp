@@ -46,9 +46,9 @@ struct Moves {
             pushed.push_back(i);
         }
     }
-    RodMotion motion() const {
-        return {centre,    axis,   displacement,
-                allowance, travel, {touching_part, [](const Contact&) { return touching; }}};
+    RodMotion motion(double range = 0.0) const {
+        return {centre, axis,   displacement, allowance,
+                travel, margin, range,        {touching_part, [](const Contact&) { return touching; }}};
     }
 };
 
@@ -97,7 +97,7 @@ TEST_CASE("contacts, and the pairs missed: against brute force, in any box, with
     for (const Case& test : cases) {
         CAPTURE(test.name);
         const Rods rods = thrown(test.count, test.box, test.length, 1.0, engine);
-        CollisionSearch search(margin, 0.0);
+        CollisionSearch search;
         for (int step = 0; step < 6; ++step) {
             const Moves moves(rods, test.known, test.push, engine);
             Contacts contacts;
@@ -142,9 +142,9 @@ TEST_CASE("with a range, all pairs with a smaller gap are contacts") {
     const Box box{{12, 12, 12}, {true, true, true}};
     const Rods rods = thrown(60, box, 5.0, 1.0, engine);
     const Moves moves(rods, 0.02, 0.0, engine);
-    CollisionSearch search(margin, 0.5);
+    CollisionSearch search;
     Contacts contacts;
-    search.find(rods, box, moves.motion(), contacts);
+    search.find(rods, box, moves.motion(0.5), contacts);
     const auto found = names(contacts);
     for (const PairName& name : pairs_within(rods, box, rods.centre, rods.axis, 0.5)) CHECK(found.count(name) == 1);
 }
@@ -155,7 +155,7 @@ TEST_CASE("what is found does not depend on when the neighbour list was built") 
     std::size_t early = 0, late = 0;
     for (int sample = 0; sample < 50; ++sample) {
         Rods rods = thrown(500, box, 5.0, 1.0, engine);
-        CollisionSearch old_search(margin, 0.0), new_search(margin, 0.0);
+        CollisionSearch old_search, new_search;
         Contacts contacts, contacts_of_new;
         const Moves before(rods, 0.04, 0.0, engine);
         old_search.find(rods, box, before.motion(), contacts);

@@ -87,7 +87,8 @@ TEST_CASE("crossing and coincident axes still have a normal to be pushed along")
     }
 }
 
-TEST_CASE("gap_at follows the same points: equal to the gap where nothing moved, and signed when rods pass through") {
+TEST_CASE(
+    "gap_of_contact follows the same points: equal to the gap where nothing moved, and signed when rods pass through") {
     std::mt19937_64 engine(3);
     const Box box{{6, 6, 6}, {true, true, true}};
     const Rods rods = thrown(30, box, 4.0, 1.0, engine);

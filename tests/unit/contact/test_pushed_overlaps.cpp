@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "jostle/contact/pushed_overlaps.hpp"
 
 using namespace jostle;
@@ -45,6 +47,18 @@ TEST_CASE("a pair that is turned into overlap gets its nearest points there") {
     };
     const Contacts through_the_wall = pushed_overlaps(contacts, rods, box, lowered, 0.01);
     REQUIRE(through_the_wall.size() == 1);
-    CHECK(through_the_wall.contact[0].gap == doctest::Approx(-0.5));
+    CHECK(through_the_wall.contact[0].room == doctest::Approx(-0.5));
+    CHECK(through_the_wall.contact[0].gap == doctest::Approx(2.0));  // before the step
     CHECK(through_the_wall.image[0] == Image{0, 0, -1});
+
+    // Pushed through each other, rods are brought back to the sides that they came from.
+    for (Contact& known : contacts.contact) known.normal = {0, 0, -1};
+    const RodAfter beyond = [&](std::uint32_t row) {
+        return std::pair{rods.centre[row] + (row == 2 ? Vec3{0, 0, 5.25} : Vec3{}), rods.axis[row]};
+    };
+    const Contacts passed = pushed_overlaps(contacts, rods, box, beyond, 0.01);
+    const auto other = std::find(passed.image.begin(), passed.image.end(), Image{0, 0, -1}) - passed.image.begin();
+    REQUIRE(static_cast<std::size_t>(other) < passed.size());
+    CHECK(norm(passed.contact[other].normal - Vec3{0, 0, -1}) < 1e-12);
+    CHECK(passed.contact[other].room == doctest::Approx(-3.25));
 }

@@ -109,8 +109,10 @@ TEST_CASE("direction of the daughter in front") {
     Rods rods = cells(1, 6.0);
     const Growth growth(turned, 1, 0);
     growth.found(rods);
+    const Vec3 head = rods.axis[0];
     growth.divide(rods, box, 1, 0.1);
     CHECK(norm(rods.axis[0] + rods.axis[1]) == 0.0);
+    CHECK(norm(rods.axis[1] - head) == 0.0);  // that in front swims on, that behind swims away from it
 }
 
 TEST_CASE("compression slows growth, tension does not hasten it") {
@@ -121,15 +123,24 @@ TEST_CASE("compression slows growth, tension does not hasten it") {
     growth.found(rods);
     const std::vector<std::uint32_t> rows = {0, 1};
     // Forces F inward on both ends: the sum of arm F is -F L along the axis.
-    const std::vector<ContactForce> forces = {{{}, -1.0 * 2.5 * rods.axis[0]}, {{}, 9.0 * 2.5 * rods.axis[1]}};
-    growth.lengthen(rods, rows, forces, 0.1);
-    CHECK(rods.length[0] == doctest::Approx(2.5 + 0.1 * 0.75));
-    CHECK(rods.length[1] == doctest::Approx(2.6));
-    CHECK(rods.length[2] == doctest::Approx(2.6));
-    const std::vector<ContactForce> strong = {{{}, -5.0 * rods.length[0] * rods.axis[0]}, {{}, {}}};
-    const double before = rods.length[0];
-    growth.lengthen(rods, rows, strong, 0.1);
-    CHECK(rods.length[0] == before);
+    const auto lengthen = [&](double compression, int steps) {  // the growth of the three in the last step
+        std::vector<double> before;
+        for (int step = 0; step < steps; ++step) {
+            const std::vector<ContactForce> forces = {{{}, -compression * rods.length[0] * rods.axis[0]},
+                                                      {{}, 9.0 * rods.length[1] * rods.axis[1]}};
+            before = rods.length;
+            growth.lengthen(rods, rows, forces, 0.1);
+        }
+        return std::vector{rods.length[0] - before[0], rods.length[1] - before[1], rods.length[2] - before[2]};
+    };
+    const std::vector<double> slowed = lengthen(1.0, 50);
+    CHECK(slowed[0] == doctest::Approx(0.1 * 0.75));
+    CHECK(slowed[1] == doctest::Approx(0.1));
+    CHECK(slowed[2] == doctest::Approx(0.1));
+    CHECK(lengthen(5.0, 100)[0] < 1e-8);                 // stalled
+    CHECK(lengthen(0.0, 1)[0] == doctest::Approx(0.1));  // free again
+    CHECK(lengthen(5.0, 100)[0] < 1e-8);
+    CHECK(lengthen(3.0, 100)[0] == doctest::Approx(0.1 * 0.25));  // less pressed on
 }
 
 // Length at birth l, at division d, after many generations of one line with noise delta in what is measured:

@@ -29,7 +29,8 @@ Checkpoint two_rods(std::uint64_t step = 7) {
     checkpoint.rods.image[1] = {-1, 2, 2147483647};
     checkpoint.rods.speed = {0.5, -2.0};
     checkpoint.springs = {{3, 9, 2.5, -0.0, 1.0 / 3.0, 1e-300, {-1, 0, 7}}, {9, 3, 0.0, 0.1, 0.0, 5.0, {}}};
-    checkpoint.last_forces = {{0, 1, ContactFeature::end_of_j, 1.0 / 3.0}, {1, 1, ContactFeature::nearest, 1e-300}};
+    checkpoint.last_forces = {{0, 1, ContactFeature::end_of_j, true, 1.0 / 3.0},
+                              {1, 1, ContactFeature::nearest, false, 1e-300}};
     checkpoint.accumulators = {1.5, -2.25, 1e-310};
     checkpoint.series_rows = 4;
     checkpoint.series_bytes = 321;

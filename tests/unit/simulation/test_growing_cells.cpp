@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/parallel/parallel_for.hpp"
@@ -95,23 +96,71 @@ TEST_CASE("a dense colony from one cell: no collision is missed, and the same bi
 }
 
 TEST_CASE("a run taken up from its state between two divisions goes on bit for bit") {
-    Scene scene = still_cells();
-    scene.motion.brownian = true;
-    scene.fluid.kT = 0.01;
-    scene.growth.rate_deviation = 0.1;
-    scene.growth.death_rate = 0.01;
-    Simulation whole = assemble(scene, open_space, one_cell(), {});
-    for (int step = 0; step < 1111; ++step) whole.step();
-    CHECK(!whole.last_forces().empty());
-    Simulation again = assemble(scene, open_space, whole.rods(), whole.clock(), {}, whole.last_forces());
-    for (int step = 0; step < 400; ++step) {
-        whole.step();
-        again.step();
+    struct Case {
+        const char* name;
+        double kT, other_diameter;
+    };
+    for (const Case& test : {Case{"noise", 0.01, 1.0}, Case{"hardly any noise", 1e-4, 1.0}, Case{"none", 0.0, 1.0},
+                             Case{"thick and thin cells", 0.0, 1.4}}) {
+        CAPTURE(std::string(test.name));
+        Scene scene = still_cells();
+        scene.motion.brownian = test.kT > 0.0;
+        scene.fluid.kT = test.kT;
+        scene.growth.rate_deviation = 0.1;
+        scene.growth.death_rate = 0.01;
+        scene.rods.count = 2;
+        Rods rods = one_cell();
+        rods.push_back(1, {500.3, 501.5, 500}, {0.6, 0.8, 0}, 2.5, test.other_diameter);
+        Simulation whole = assemble(scene, open_space, std::move(rods), {});
+        for (int step = 0; step < 2300; ++step) whole.step();
+        CHECK(!whole.last_forces().empty());
+        Simulation again = assemble(scene, open_space, whole.rods(), whole.clock(), {}, whole.last_forces());
+        int differing = 0;
+        for (int step = 0; step < 400; ++step) {
+            whole.step();
+            again.step();
+            differing += whole.contacts().size() != again.contacts().size() ? 1 : 0;
+        }
+        CHECK(differing == 0);
+        CHECK(whole.rods().size() > 8);
+        CHECK(whole.rods().id == again.rods().id);
+        CHECK(whole.rods().length == again.rods().length);
+        for (std::size_t i = 0; i < whole.rods().size(); ++i) CHECK(whole.rods().centre[i] == again.rods().centre[i]);
     }
-    CHECK(whole.rods().size() > 4);
-    CHECK(whole.rods().id == again.rods().id);
-    CHECK(whole.rods().length == again.rods().length);
-    for (std::size_t i = 0; i < whole.rods().size(); ++i) CHECK(whole.rods().centre[i] == again.rods().centre[i]);
+}
+
+// Eq. (5.1) in a chain, whose inner cells are pressed on by all others, whatever the step.
+//
+//     ()()()()()()()()  ->  ( )()....()( )
+TEST_CASE("cells that press on each other grow by what the force leaves them, at any step") {
+    constexpr double stall_force = 20.0;
+    std::vector<double> middle;
+    for (const double time_step : {0.001, 0.004}) {
+        Scene scene = still_cells();
+        scene.time.step = time_step;
+        scene.rods.count = 12;
+        scene.growth.division_length = 60.0;
+        scene.growth.stall_force = stall_force;
+        Rods rods;
+        for (std::uint64_t id = 0; id < 12; ++id)
+            rods.push_back(id, {500.0 + 4.0 * static_cast<double>(id), 500, 500}, {1, 0, 0}, 3.0, 1.0);
+        Simulation simulation = assemble(scene, open_space, std::move(rods), {});
+        for (int step = 0; step < 200; ++step) REQUIRE(simulation.step().status == LcpStatus::converged);
+        std::vector<double> compression(12, 0.0);
+        const Contacts& contacts = simulation.contacts();
+        for (std::size_t l = 0; l < contacts.size(); ++l)
+            for (const std::uint32_t row : {contacts.contact[l].i, contacts.contact[l].j})
+                compression[row] += 0.5 * simulation.contact_solution().gamma[l];
+        for (std::size_t i = 0; i < 12; ++i) {
+            CAPTURE(i);
+            const double share = simulation.rods().cycle[i].share;
+            CHECK(share == doctest::Approx(std::max(0.0, 1.0 - compression[i] / stall_force)).epsilon(0.02));
+            if (simulation.rods().id[i] == 0) CHECK(share > 0.5);
+            if (simulation.rods().id[i] == 5) middle.push_back(share);
+        }
+    }
+    CHECK(middle[0] < 0.05);
+    CHECK(middle[1] == doctest::Approx(middle[0]).epsilon(0.2));  // cells have grown by four times as much
 }
 
 TEST_CASE("growth that cannot be is refused with the numbers") {

@@ -64,13 +64,24 @@ TEST_CASE("a contact begins with the force of the same feature of the same rods,
     CHECK(warm_start.guess(contacts) == std::vector{1.5, 0.0, 2.5, 0.0, 0.0});
 }
 
+TEST_CASE("each end of a rod has its own force") {
+    Contacts contacts;
+    for (const double arm : {-1.0, 1.0}) {
+        add(contacts, 0, 1, ContactFeature::end_of_i);
+        contacts.contact.back().arm_i = arm;
+    }
+    WarmStart warm_start;
+    warm_start.keep(contacts, std::vector{1.5, 2.5});
+    CHECK(warm_start.guess(contacts) == std::vector{1.5, 2.5});
+}
+
 TEST_CASE("forces follow their rods to other rows, and go with those that are gone") {
     WarmStart warm_start;
     const Contacts contacts = three_contacts();
     warm_start.keep(contacts, std::vector{1.5, 3.5, 2.5});
     warm_start.renumber(std::vector<std::uint32_t>{WarmStart::no_row, 4, 1});
-    const std::vector<LastForce> expected = {{1, 4, ContactFeature::end_of_i, 2.5},   // i was row 1, and is row 4
-                                             {1, 4, ContactFeature::end_of_j, 3.5}};  // as j
+    const std::vector<LastForce> expected = {{1, 4, ContactFeature::end_of_i, false, 2.5},  // i was row 1, and is row 4
+                                             {1, 4, ContactFeature::end_of_j, false, 3.5}};  // as j
     CHECK(warm_start.forces() == expected);
     CHECK(WarmStart({expected[1], expected[0]}).forces() == expected);
 }
