@@ -9,6 +9,7 @@ from run_folder import readable_unit, superscript
 MARK = '<meta name="generator" content="jostle report">'
 NAME = "report.html"
 AVERAGES = {"Z": "compressibility factor Z", "pressure": "pressure", "pressure_collision": "collision pressure",
+            "pressure_springs": "pressure of springs", "pressure_active": "active pressure",
             "nematic_order": "nematic order S", "anisotropy": "stress anisotropy"}
 STYLE = """
 body { font: 16px/1.5 sans-serif; color: #222; max-width: 76rem; margin: 2rem auto; padding: 0 1.2rem; }
@@ -53,6 +54,8 @@ def subtitle(run):
 
 
 def warnings(run):
+    if run.record.get("exit_reason") == "extinct":
+        return ["All cells have died: there are no averages."]
     if not run.summary:
         return ["The run is not done: there are no averages yet."]
     if run.summary.get("equilibrated") is False:
@@ -71,7 +74,7 @@ def average_rows(run):
             n_eff = average.get("n_eff")
             yield (words, number(average["mean"], error), "–" if error is None else f"{error:.2g}",
                    "–" if n_eff is None else f"{n_eff:.0f}", readable_unit(average.get("unit", "1")))
-    yield ("volume fraction", f"{run.summary['volume_fraction']:.5g}", "", "", "")
+    yield ("volume fraction in the end", f"{run.summary['volume_fraction']:.5g}", "", "", "")
     yield ("largest overlap of the run", f"{run.summary['max_overlap']:.2e}", "", "", "D")
 
 

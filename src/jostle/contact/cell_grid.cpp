@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace jostle {
 
@@ -9,24 +11,39 @@ namespace {
 
 /// At most this many cells a rod: more would only cost memory in a dilute assembly.
 constexpr double largest_cells_per_rod = 4.0;
+/// So much of the rods, at either end of an open direction, may lie in the outermost cells where there are too many.
+constexpr double outliers = 0.02;
+
+/// Along one direction: all rods but a part of them at either end lie between.
+std::pair<double, double> middle_of(const Rods& rods, int direction, double part) {
+    std::vector<double> places(rods.size());
+    for (std::size_t i = 0; i < places.size(); ++i) places[i] = rods.centre[i][direction];
+    const auto first = static_cast<std::ptrdiff_t>(part * static_cast<double>(places.size() - 1));
+    std::nth_element(places.begin(), places.begin() + first, places.end());
+    const double low = places[static_cast<std::size_t>(first)];
+    std::nth_element(places.begin(), places.end() - 1 - first, places.end());
+    return {low, *(places.end() - 1 - first)};
+}
 
 }  // namespace
 
 CellGrid::CellGrid(const Rods& rods, const Box& box, double range) : periodic_(box.periodic) {
-    Vec3 low{0, 0, 0}, extent = box.edges;
-    for (int k = 0; k < 3; ++k) {
-        if (periodic_[static_cast<std::size_t>(k)] || rods.size() == 0) continue;
-        const auto less = [k](const Vec3& a, const Vec3& b) { return a[k] < b[k]; };
-        const auto [lowest, highest] = std::minmax_element(rods.centre.begin(), rods.centre.end(), less);
-        low[k] = (*lowest)[k];
-        extent[k] = std::max((*highest)[k] - low[k], range);
-    }
-    origin_ = low;
+    Vec3 extent = box.edges;
+    const auto span_open_directions = [&](double left_out) {
+        for (int k = 0; k < 3; ++k) {
+            if (periodic_[static_cast<std::size_t>(k)] || rods.size() == 0) continue;
+            const auto [low, high] = middle_of(rods, k, left_out);
+            origin_[k] = low;
+            extent[k] = std::max(high - low, range);
+        }
+    };
     // Cells of half the range: 125 of them enclose less than 27 of the full range would.
     double edge = 0.5 * range;
-    const double cells = extent.x / edge * (extent.y / edge) * (extent.z / edge);
+    const auto cells = [&] { return extent.x / edge * (extent.y / edge) * (extent.z / edge); };
     const double allowed = largest_cells_per_rod * static_cast<double>(rods.size()) + 64.0;
-    if (cells > allowed) edge *= std::cbrt(cells / allowed);
+    span_open_directions(0.0);
+    if (cells() > allowed) span_open_directions(outliers);  // a few far away must not make the cells of all wide
+    if (cells() > allowed) edge *= std::cbrt(cells() / allowed);
     for (int k = 0; k < 3; ++k) {
         const auto direction = static_cast<std::size_t>(k);
         const double number = std::clamp(std::floor(extent[k] / edge), 1.0, 1e6);

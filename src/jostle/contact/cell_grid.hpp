@@ -12,7 +12,7 @@ namespace jostle {
 /// A box divided into cells, about half as wide as the range in which rods look for each other.
 ///
 /// A periodic direction is divided evenly, however thin it is; `visit` then meets the same cell in several images. In
-/// an open direction the cells span the rods' extent, and the outermost reach to infinity.
+/// an open direction the cells span the rods' extent, or that of most of them, and the outermost reach to infinity.
 class CellGrid {
 public:
     /// `range`: the largest distance of centres that `visit` must cover.

@@ -43,11 +43,6 @@ using RodAfter = std::function<std::pair<Vec3, Vec3>(std::uint32_t row)>;
 /// A pair as `pair_geometry` gives it, there.
 PairGeometry pair_geometry_after(const Rods& rods, const Box& box, const PairName& name, const RodAfter& after);
 
-/// The pair that contact l belongs to.
-inline PairName pair_of(const Contacts& contacts, std::size_t l) {
-    return {contacts.contact[l].i, contacts.contact[l].j, contacts.image[l]};
-}
-
 /// Finds the pairs that collide in a step: most neighbours do not, and are kept out of the contact problem.
 ///
 ///     pairs of the neighbour list

@@ -63,9 +63,7 @@ void ContactMatrix::apply(std::span<const double> gamma, std::span<ContactForce>
 
 void ContactMatrix::apply_transpose(std::span<const ContactVelocity> velocities, std::span<double> rates) const {
     parallel_for(size(), [&](std::size_t l) {
-        const Contact& contact = contacts_.contact[l];
-        const ContactVelocity &i = velocities[ends_[l].i], &j = velocities[ends_[l].j];
-        rates[l] = dot(contact.normal, j.centre + contact.arm_j * j.turning - i.centre - contact.arm_i * i.turning);
+        rates[l] = gap_rate(contacts_.contact[l], velocities[ends_[l].i], velocities[ends_[l].j]);
     });
 }
 

@@ -18,6 +18,11 @@ struct ContactVelocity {
     Vec3 centre, turning;
 };
 
+/// How fast the gap of a contact opens, D^T U.
+inline double gap_rate(const Contact& contact, const ContactVelocity& i, const ContactVelocity& j) {
+    return dot(contact.normal, j.centre + contact.arm_j * j.turning - i.centre - contact.arm_i * i.turning);
+}
+
 /// The matrix D of theory, eq. (2.2), between contact forces gamma and the rods that have contacts. Never formed.
 ///
 /// Column l is (-normal, -a_i x normal; +normal, +a_j x normal) with arms a = arm * axis. As an arm is along its rod's

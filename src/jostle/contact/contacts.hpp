@@ -24,6 +24,14 @@ struct Contact {
     double room = 0.0;  ///< the gap after the known motion of the step, less that at which they touch (CollisionSearch)
 };
 
+/// Which rods meet, and in which image of j.
+struct PairName {
+    std::uint32_t i, j;
+    Image image;
+
+    auto operator<=>(const PairName&) const = default;
+};
+
 /// Which points a contact follows while the rods move.
 enum class ContactFeature : std::uint8_t {
     nearest,   ///< the nearest points of the two segments
@@ -71,5 +79,10 @@ struct Contacts {
         });
     }
 };
+
+/// The pair that contact l belongs to.
+inline PairName pair_of(const Contacts& contacts, std::size_t l) {
+    return {contacts.contact[l].i, contacts.contact[l].j, contacts.image[l]};
+}
 
 }  // namespace jostle

@@ -19,6 +19,8 @@ constexpr std::size_t cells_per_block = 16;
 /// Gaps are computed in float, from places relative to a rod near by. Their error, in units of the range of the search,
 /// is far below this; nearly parallel rods have the largest, some 3e-5.
 constexpr double float_error = 2e-4;
+/// Rods are near by within so many ranges.
+constexpr double near = 8.0;
 
 /// Gaps in the list are counted in these; the widest fits 16 bits.
 constexpr float units_per_skin = 65535.0F;
@@ -121,6 +123,20 @@ public:
     void append_pairs_of(std::size_t home, Surroundings& around, NewPairs& pairs,
                          std::vector<std::size_t>& count) const {
         const auto homes = cells_.rods_in(home);
+        if (are_near_each_other(homes)) return append_pairs_of(home, homes, around, pairs, count);
+        for (std::size_t k = 0; k < homes.size(); ++k) append_pairs_of(home, homes.subspan(k, 1), around, pairs, count);
+    }
+
+private:
+    /// Not so in the outermost cells of an open direction, which have no end.
+    bool are_near_each_other(std::span<const std::uint32_t> homes) const {
+        return std::all_of(homes.begin(), homes.end(), [&](std::uint32_t i) {
+            return squared_norm(rods_.centre[i] - rods_.centre[homes.front()]) < near * near * squared_range_;
+        });
+    }
+
+    void append_pairs_of(std::size_t home, std::span<const std::uint32_t> homes, Surroundings& around, NewPairs& pairs,
+                         std::vector<std::size_t>& count) const {
         if (homes.empty()) return;
         const Vec3 origin = rods_.centre[homes.front()];
         gather(home, homes, origin, around);
@@ -147,7 +163,6 @@ public:
         }
     }
 
-private:
     std::uint16_t in_units(float gap) const {
         return static_cast<std::uint16_t>(std::clamp((gap - error_) * units_per_length_, 0.0F, units_per_skin));
     }

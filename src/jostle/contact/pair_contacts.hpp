@@ -33,14 +33,6 @@ inline double pair_gap(const PairGeometry& pair) {
     return norm(nearest_points(pair).separation) - pair.radii;
 }
 
-/// Which rods meet, and in which image of j.
-struct PairName {
-    std::uint32_t i, j;
-    Image image;
-
-    auto operator<=>(const PairName&) const = default;
-};
-
 /// Appends the contacts of a pair: its nearest points, and for nearly parallel rods the ends of the stretch along which
 /// they lie side by side, where they are nearer than `range` beyond touching
 /// (docs/decisions/0003-two-point-contacts.md):

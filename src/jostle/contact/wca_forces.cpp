@@ -8,10 +8,7 @@ namespace {
 
 /// How many contacts share the potential of the pair that contact `l` belongs to: 0 if it has no part in it.
 double sharers(const Contacts& contacts, std::size_t l) {
-    const auto same_pair = [&](std::size_t other) {
-        return contacts.contact[other].i == contacts.contact[l].i &&
-               contacts.contact[other].j == contacts.contact[l].j && contacts.image[other] == contacts.image[l];
-    };
+    const auto same_pair = [&](std::size_t other) { return pair_of(contacts, other) == pair_of(contacts, l); };
     std::size_t first = l, last = l + 1;
     while (first > 0 && same_pair(first - 1)) --first;
     while (last < contacts.size() && same_pair(last)) ++last;

@@ -1,4 +1,4 @@
-// One step of the simulation, in the order of docs/theory: read `step`, then the five functions below it.
+// One step of the simulation, in the order of docs/theory: read `step`, then the functions that it calls.
 
 #include <chrono>
 #include <tuple>
@@ -149,11 +149,10 @@ void Simulation::extend_gap_velocities(std::vector<double>& b) const {
             b[l] = contact.room / dt;
             return;
         }
-        const auto point_velocity = [&](std::uint32_t row, double arm) {
-            return known_.linear[row] + arm * cross(known_.angular[row], rods_.axis[row]);
+        const auto velocity = [&](std::uint32_t row) {
+            return ContactVelocity{known_.linear[row], cross(known_.angular[row], rods_.axis[row])};
         };
-        b[l] = contact.gap / dt +
-               dot(contact.normal, point_velocity(contact.j, contact.arm_j) - point_velocity(contact.i, contact.arm_i));
+        b[l] = contact.gap / dt + gap_rate(contact, velocity(contact.i), velocity(contact.j));
     });
 }
 
@@ -203,14 +202,10 @@ bool Simulation::add_pushed_contacts(const ContactMatrix& contact_matrix, const 
     const double tolerance = settings_.lcp.residual == LcpResidual::length ? settings_.lcp.tolerance : 0.0;
     const Contacts pushed = pushed_overlaps(contacts_, rods_, box_, places_after(contact_matrix, solution),
                                             most_pushed_overlap * mean_diameter_ + tolerance);
-    const auto point_velocity = [&](std::uint32_t row, double arm) {
-        const ContactVelocity& velocity = solution.velocities[contact_matrix.place_of(row)];
-        return velocity.centre + arm * velocity.turning;
-    };
+    const auto velocity = [&](std::uint32_t row) { return solution.velocities[contact_matrix.place_of(row)]; };
     for (std::size_t l = 0; l < pushed.size(); ++l) {
         Contact contact = pushed.contact[l];
-        contact.room -= settings_.time_step * dot(contact.normal, point_velocity(contact.j, contact.arm_j) -
-                                                                      point_velocity(contact.i, contact.arm_i));
+        contact.room -= settings_.time_step * gap_rate(contact, velocity(contact.i), velocity(contact.j));
         contacts_.push_back(contact, pushed.image[l], ContactFeature::pushed);
     }
     return pushed.size() > 0;

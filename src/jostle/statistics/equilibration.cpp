@@ -37,23 +37,7 @@ Equilibration detect_equilibration(std::span<const double> series) {
     }
     const std::size_t start = best == 0 ? 0 : left_out + best * block_length;
     const bool settled = 5 * best <= 2 * blocks.size() && most_samples >= least_effective_samples;
-    return {start, effective_samples(series.subspan(start)), settled};
-}
-
-Equilibration detect_equilibration(std::span<const std::vector<double>> series) {
-    Equilibration result;
-    result.reached = !series.empty();
-    for (const std::vector<double>& one : series) {
-        const Equilibration found = detect_equilibration(std::span<const double>(one));
-        result.start = std::max(result.start, found.start);
-        result.reached = result.reached && found.reached;
-    }
-    for (std::size_t k = 0; k < series.size(); ++k) {
-        const std::span<const double> rest = std::span(series[k]).subspan(std::min(result.start, series[k].size()));
-        const double samples = effective_samples(rest);
-        result.effective_samples = k == 0 ? samples : std::min(result.effective_samples, samples);
-    }
-    return result;
+    return {start, settled};
 }
 
 }  // namespace jostle

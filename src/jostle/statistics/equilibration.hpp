@@ -2,15 +2,13 @@
 
 #include <cstddef>
 #include <span>
-#include <vector>
 
 namespace jostle {
 
 /// Where a series has come to equilibrium.
 struct Equilibration {
-    std::size_t start = 0;           ///< first row of production
-    double effective_samples = 0.0;  ///< of the rows from `start` on; the smallest of several series
-    bool reached = false;            ///< false: still drifting, or too short to tell
+    std::size_t start = 0;  ///< first row of production
+    bool reached = false;   ///< false: still drifting, or too short to tell
 };
 
 /// The origin after which a series holds the largest effective number of samples (Chodera, J. Chem. Theory Comput. 12,
@@ -22,8 +20,5 @@ struct Equilibration {
 /// 2/5 of the series (a steady drift puts it near the half) or leaves fewer than ten effective samples. A constant
 /// series is in equilibrium from its first row. `series` (rows), evenly spaced in time. Linear in the number of rows.
 Equilibration detect_equilibration(std::span<const double> series);
-
-/// The same for several quantities of one run: the latest start, and reached only if all have reached it.
-Equilibration detect_equilibration(std::span<const std::vector<double>> series);
 
 }  // namespace jostle
