@@ -36,8 +36,9 @@ Contacts pushed_overlaps(const Contacts& contacts, const Rods& rods, const Box& 
         contact.normal = (side / distance) * nearest.separation;
         contact.arm_i = nearest.s_i;
         contact.arm_j = nearest.s_j;
-        const Vec3 between = rods.centre[name.j] + box.displacement(name.image) - rods.centre[name.i];
-        const Vec3 points = between + contact.arm_j * rods.axis[name.j] - contact.arm_i * rods.axis[name.i];
+        const PairGeometry before =
+            pair_geometry(rods, name.i, name.j, box.displacement(name.image), rods.centre, rods.axis);
+        const Vec3 points = before.between + contact.arm_j * before.axis_j - contact.arm_i * before.axis_i;
         contact.gap = dot(points, contact.normal) - pair.radii;
         contact.room = side * distance - pair.radii;
         found.push_back(contact, name.image, ContactFeature::pushed);

@@ -44,8 +44,8 @@ public:
 
     void put_in(std::uint32_t row, const Vec3& centre) {
         std::uint32_t& first = first_[grid_.cell_of(centre)];
-        const auto single = [](double value) { return static_cast<float>(value); };
-        places_[row] = {single(centre.x), single(centre.y), single(centre.z), first};
+        const auto [x, y, z] = in_float(centre);
+        places_[row] = {x, y, z, first};
         first = row;
     }
 
@@ -61,9 +61,8 @@ public:
     bool any_near(const Vec3& centre, Overlaps&& overlaps) const {
         bool any = false;
         grid_.visit(grid_.cell_of(centre), [&](std::size_t first, std::size_t last, const Image& image) {
-            const Vec3 displacement = box_.displacement(image), origin = centre - displacement;
-            const float x = static_cast<float>(origin.x), y = static_cast<float>(origin.y),
-                        z = static_cast<float>(origin.z);
+            const Vec3 displacement = box_.displacement(image);
+            const auto [x, y, z] = in_float(centre - displacement);
             for (std::size_t cell = first; cell <= last; ++cell)
                 for (std::uint32_t row = first_[cell]; row != none && !any;) {
                     const Place& place = places_[row];
@@ -105,12 +104,12 @@ Vec3 random_axis(const RandomKey& key, std::uint32_t draw) {
 }
 
 bool overlap(const Rods& rods, std::uint32_t i, std::uint32_t j, const Vec3& displacement) {
-    const Vec3 between = rods.centre[j] + displacement - rods.centre[i];
+    const PairGeometry pair = pair_geometry(rods, i, j, displacement, rods.centre, rods.axis);
     // Most are told apart by the distance of the lines through their axes.
-    const Vec3 across = cross(rods.axis[i], rods.axis[j]);
-    const double touching = 0.5 * (rods.diameter[i] + rods.diameter[j]), shift = dot(between, across);
-    if (shift * shift > 1.001 * touching * touching * squared_norm(across)) return false;
-    return pair_gap(pair_geometry(rods, i, j, displacement, rods.centre, rods.axis)) < 0.0;
+    const Vec3 across = cross(pair.axis_i, pair.axis_j);
+    const double shift = dot(pair.between, across);
+    if (shift * shift > 1.001 * pair.radii * pair.radii * squared_norm(across)) return false;
+    return pair_gap(pair) < 0.0;
 }
 
 /// Of the rods just drawn, those that overlap their own image, one that stays, or one just drawn with a lower id.

@@ -65,8 +65,8 @@ TEST_CASE("no pair within reach is missed, in any box, while rods move: against 
     for (const Case& test : cases) {
         CAPTURE(test.name);
         Rods rods = thrown(test.count, test.box, test.length, 1.0, engine);
-        for (std::size_t i = 0; i < 4 && test.flung > 0.0;
-             ++i) {  // all into one of the outermost cells, where float would tear the last two apart
+        // All into one of the outermost cells, where float would tear the last two apart.
+        for (std::size_t i = 0; i < 4 && test.flung > 0.0; ++i) {
             const double beside = i % 2 == 0 ? 0.0 : 0.65;
             rods.centre[i] = {(i < 2 ? test.flung : 2.0 * test.flung + 31.9) + beside, 10.0, 10.0 + beside};
         }

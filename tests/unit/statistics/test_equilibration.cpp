@@ -46,11 +46,13 @@ TEST_CASE("a drift that dies out is cut off, and little more") {
     constexpr std::size_t rows = 10000;
     constexpr double decay = 300.0;
     for (int k = 0; k < 10; ++k) {
-        const Equilibration found = detect_equilibration(relaxing(generator, rows, 5.0, decay));
+        const std::vector<double> series = relaxing(generator, rows, 5.0, decay);
+        const Equilibration found = detect_equilibration(series);
         // At 1 decay time the drift is twice the noise, at 7 it is 0.005 of it, far below the error of the mean, 0.05.
         CHECK(found.start > static_cast<std::size_t>(decay));
         CHECK(found.start < static_cast<std::size_t>(7.0 * decay));
         CHECK(found.reached);
+        CHECK(average(std::span(series).subspan(found.start)).effective_samples > 200.0);
     }
 }
 
