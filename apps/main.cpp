@@ -7,6 +7,7 @@
 #include "stress_command.hpp"
 #include "verify_command.hpp"
 #include "version.hpp"
+#include "waiting_threads.hpp"
 
 namespace {
 
@@ -58,6 +59,7 @@ CLI::App* add_stress_command(CLI::App& app, StressOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    give_way_to_other_programs(argv);
     CLI::App app{"jostle: collision stress of assemblies of rods"};
     app.set_version_flag("--version",
                          std::string("jostle ") + jostle_version + " (" + jostle_commit + ", " + jostle_compiler + ")");

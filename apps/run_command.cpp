@@ -90,6 +90,7 @@ public:
           progress_(options.quiet || options.json) {}
 
     ExitCode go() {
+        stop_request::wait_for_steps();
         record_.write(simulation_, "running");
         show_progress();
         while (!length_.is_over(files_.series())) {

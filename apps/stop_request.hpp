@@ -1,9 +1,13 @@
 #pragma once
 
 /// Ctrl-C and SIGTERM: the first asks the run to stop after the step at hand, the second ends the process at once.
+/// Before the first step, while a start is made or a checkpoint read, the first does.
 namespace stop_request {
 
 void install();
+
+/// From now on steps are made.
+void wait_for_steps();
 
 /// Whether a stop has been asked for; and by which signal (0: none).
 int signal_received();

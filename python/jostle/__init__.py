@@ -13,6 +13,7 @@ Errors are InputError (a ValueError), StepFailure (a RuntimeError) and DiskError
 from whole numbers and float32; truth values, complex numbers, texts, NaN and infinity are refused.
 """
 
+from . import _waiting_threads  # before OpenMP is loaded
 from ._jostle import DiskError, InputError, set_thread_count, thread_count
 from ._jostle import version as __version__
 from .bodies import Body, body_moments, combined

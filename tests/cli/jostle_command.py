@@ -20,8 +20,6 @@ DONE, BAD_INPUT, NUMERICS, DISK, STOPPED = 0, 2, 3, 4, 75
 RESULTS = ("scene.toml", "resolved.toml", "series.csv", "series.json", "contacts.csv", "contacts.json", "lineage.csv", "field.csv", "field.json", "checkpoint",
            "trajectory.journal", "summary.json")
 TIME_STEP = 0.02
-# Threads that wait for each other by spinning take minutes for seconds of work where other programs use the machine.
-ENVIRONMENT = {**os.environ, "OMP_WAIT_POLICY": "passive"}
 
 # 50 short rods that touch often, every file written, no two of the intervals in step.
 RODS = {
@@ -106,7 +104,7 @@ def run_arguments(*options, threads=1, out="run"):
 def command(folder, *arguments, **options):
     """Runs `jostle ARGUMENTS` in the folder to its end."""
     return subprocess.run([JOSTLE, *map(str, arguments)], cwd=folder, capture_output=True, text=True, timeout=60,
-                          env=ENVIRONMENT, **options)
+                          **options)
 
 
 def run(folder, *options, threads=1, **others):
@@ -123,7 +121,7 @@ def finish(folder, *options, threads=1):
 def start(folder, *options, threads=1, **others):
     """Starts such a run and does not wait for it; what is left of it after the test is ended by a fixture."""
     process = subprocess.Popen([JOSTLE, *run_arguments(*options, threads=threads)], cwd=folder, text=True,
-                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=ENVIRONMENT, **others)
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, **others)
     started.append(process)
     return process
 

@@ -1,6 +1,7 @@
 """`jostle export`: what GSD, VTK and extended XYZ hold, read back by other means than they were written."""
 
 import base64
+import os
 import shutil
 import subprocess
 import xml.etree.ElementTree as ElementTree
@@ -11,7 +12,7 @@ import numpy as np
 import pytest
 
 import trajectory_by_hand
-from jostle_command import (DISK, DONE, ENVIRONMENT, JOSTLE, RODS, changed, command, finish, flip_bit,
+from jostle_command import (DISK, DONE, JOSTLE, RODS, changed, command, finish, flip_bit,
                             require_one_line, snapshot, write_scene)
 from test_full_disk import file_size_limit
 
@@ -247,7 +248,7 @@ def test_a_missing_module_is_named(finished_copy, module, package):
     hidden.mkdir()
     (hidden / f"{module}.py").write_text("raise ImportError('hidden')\n")
     result = subprocess.run([JOSTLE, "export", "run", "--to", "gsd"], cwd=finished_copy, capture_output=True, text=True,
-                            env={**ENVIRONMENT, "PYTHONPATH": str(hidden)}, check=False, timeout=60)
+                            env={**os.environ, "PYTHONPATH": str(hidden)}, check=False, timeout=60)
     require_one_line(result, module, f"apt-get install {package}")
 
 

@@ -2,6 +2,7 @@
 
 import html
 import json
+import os
 import re
 import shutil
 import struct
@@ -14,7 +15,7 @@ import numpy as np
 import pytest
 
 import trajectory_by_hand
-from jostle_command import (DISK, DONE, ENVIRONMENT, JOSTLE, RODS, SPHERES, STOPPED, changed, command, finish, kill,
+from jostle_command import (DISK, DONE, JOSTLE, RODS, SPHERES, STOPPED, changed, command, finish, kill,
                             require_one_line, rows_of, snapshot, start, wait_until, with_steps, write_scene)
 from test_full_disk import file_size_limit
 
@@ -30,7 +31,7 @@ SMALL = ("--width", "120")
 
 def report(folder, *options, path=None):
     """The page, and what was said on standard error; path: where programs are looked for."""
-    environment = {**ENVIRONMENT, "PATH": path} if path else ENVIRONMENT
+    environment = {**os.environ, "PATH": path} if path else None
     result = subprocess.run([shutil.which(JOSTLE), "report", "run", *(options or SMALL)], cwd=folder, env=environment,
                             capture_output=True, text=True, check=False, timeout=120)
     assert result.returncode == DONE, result.stderr
@@ -125,7 +126,7 @@ def test_a_report_that_is_stopped(finished_copy):
     (programs / "povray").chmod(0o755)
     before = snapshot(finished_copy / "run")
     process = subprocess.Popen([shutil.which(JOSTLE), "report", "run"], cwd=finished_copy, stderr=subprocess.PIPE,
-                               stdout=subprocess.PIPE, text=True, env={**ENVIRONMENT, "PATH": f"{programs}:/bin"})
+                               stdout=subprocess.PIPE, text=True, env={**os.environ, "PATH": f"{programs}:/bin"})
     number = programs / "number"
     wait_until(lambda: number.exists() and number.read_text().endswith("\n"), process)
     status, _, errors = kill(process, 15)

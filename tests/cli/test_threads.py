@@ -1,10 +1,13 @@
-"""One thread and two give the same bits, with enough rods that the loops are shared out (from 512 on)."""
+"""One thread and two give the same bits, with enough rods that the loops are shared out (from 512 on); how they wait."""
 
 import json
+import os
+from pathlib import Path
 
 import pytest
 
-from jostle_command import (DONE, STOPPED, changed, checkpoint_step, finish, require_same_results, run, write_scene)
+from jostle_command import (DONE, STOPPED, changed, checkpoint_step, finish, kill, require_same_results, rows_of, run,
+                            start, wait_until, with_steps, write_scene)
 
 OUTPUT = {"series_every": 2, "trajectory_every": 3, "checkpoint_every": 4, "contacts": True}
 SCENES = {
@@ -39,3 +42,15 @@ def test_threads_may_change_when_a_run_goes_on(tmp_path):
     assert result.returncode == DONE, result.stderr
     assert threads_of(tmp_path / "changed/run") == [2, 1]
     require_same_results(tmp_path / "changed/run", reference)
+
+
+@pytest.mark.parametrize("environment", [{}, {"OMP_WAIT_POLICY": "active"}, {"GOMP_SPINCOUNT": "7"}])
+def test_threads_wait_briefly_unless_the_environment_says_how(tmp_path, environment):
+    write_scene(tmp_path, with_steps(SCENES["spheres"], 10**6))
+    others = {name: value for name, value in os.environ.items() if name not in ("OMP_WAIT_POLICY", "GOMP_SPINCOUNT")}
+    process = start(tmp_path, env={**others, **environment})
+    wait_until(lambda: rows_of(tmp_path / "run/series.csv") > 0, process)
+    seen = dict(entry.split("=", 1) for entry in Path(f"/proc/{process.pid}/environ").read_text().split("\0") if entry)
+    kill(process)
+    expected = environment or {"GOMP_SPINCOUNT": "1000"}
+    assert {name: seen[name] for name in ("OMP_WAIT_POLICY", "GOMP_SPINCOUNT") if name in seen} == expected

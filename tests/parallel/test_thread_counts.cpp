@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <new>
 #include <numbers>
 #include <vector>
 
@@ -189,6 +190,25 @@ TEST_CASE("parallel_for visits every index once") {
             std::vector<int> visits(count, 0);
             parallel_for(count, [&](std::size_t k) { ++visits[k]; });
             CHECK(visits == std::vector<int>(count, 1));
+        }
+    }
+}
+
+TEST_CASE("what a call throws on any thread is thrown where the loop was called, and later loops run as before") {
+    for (const int threads : thread_counts) {
+        const ThreadCount thread_count(threads);
+        for (const std::size_t count : counts) {
+            CAPTURE(threads);
+            CAPTURE(count);
+            const std::size_t bad = count - 1;  // of the last thread
+            const auto fail_at_bad = [bad](std::size_t k) { return k == bad ? throw std::bad_alloc() : 1.0; };
+            if (count > 0) {
+                CHECK_THROWS_AS(parallel_for(count, fail_at_bad), std::bad_alloc);
+                CHECK_THROWS_AS(parallel_for_parts(count, fail_at_bad), std::bad_alloc);
+                CHECK_THROWS_AS(parallel_sum<double>(count, fail_at_bad), std::bad_alloc);
+                CHECK_THROWS_AS(parallel_max(count, 0.0, fail_at_bad), std::bad_alloc);
+            }
+            CHECK(parallel_sum<double>(count, [](std::size_t) { return 1.0; }) == static_cast<double>(count));
         }
     }
 }

@@ -60,7 +60,7 @@ def cells():
 def command(folder, *arguments):
     """Runs `jostle ARGUMENTS` in the folder."""
     return subprocess.run([os.environ["JOSTLE"], *map(str, arguments)], cwd=folder, capture_output=True, text=True,
-                          timeout=60, env={**os.environ, "OMP_WAIT_POLICY": "passive"})
+                          timeout=60)
 
 
 def finished_run(folder, text):

@@ -4,8 +4,10 @@
 // own, and sums are taken over blocks of fixed size, first inside each block, then over the blocks in order.
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
-#include <cstdint>
+#include <exception>
+#include <utility>
 #include <vector>
 
 namespace jostle {
@@ -16,39 +18,70 @@ namespace parallel {
 void set_thread_count(int count);
 int thread_count();
 
+/// The part of a loop that the calling thread is to do.
+std::pair<std::size_t, std::size_t> own_share(std::size_t count);
+
 /// Loops shorter than this run on the calling thread: starting the others would take longer than the work.
 inline constexpr std::size_t serial_limit = 512;
 
 /// Terms summed one after the other before block sums are combined.
 inline constexpr std::size_t sum_block = 256;
 
+/// Calls share(begin, end) for parts of [0, count), each on a thread of its own unless `on_one`. Waits for all, then
+/// throws what was thrown first.
+template <class Share>
+void for_shares(std::size_t count, bool on_one, Share&& share) {
+    std::exception_ptr thrown;  // it may not leave the thread
+#pragma omp parallel if (!on_one)
+    try {
+        const auto [begin, end] = own_share(count);
+        share(begin, end);
+    } catch (...) {
+#pragma omp critical
+        if (!thrown) thrown = std::current_exception();
+    }
+    if (thrown) std::rethrow_exception(thrown);
+}
+
+/// The largest of `floor` and all value(begin, end) over shares.
+template <class Value>
+double max_of_shares(std::size_t count, bool on_one, double floor, Value&& value) {
+    std::atomic<double> largest = floor;
+    for_shares(count, on_one, [&](std::size_t begin, std::size_t end) {
+        const double mine = value(begin, end);
+        for (double seen = largest; seen < mine && !largest.compare_exchange_weak(seen, mine);) {
+        }
+    });
+    return largest;
+}
+
 }  // namespace parallel
 
 /// Calls body(k) for every k in [0, count), in any order and on any thread; body(k) may write only what belongs to k.
+/// If a call throws, others may be left out, and the loop throws that once no thread is at work any more.
 template <class Body>
 void parallel_for(std::size_t count, Body&& body) {
-    const auto end = static_cast<std::int64_t>(count);
-#pragma omp parallel for schedule(static) if (count > parallel::serial_limit)
-    for (std::int64_t k = 0; k < end; ++k) body(static_cast<std::size_t>(k));
+    parallel::for_shares(count, count <= parallel::serial_limit, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) body(k);
+    });
 }
 
 /// Calls body(part) for every part in [0, count), each of which is worth a thread of its own.
 template <class Body>
 void parallel_for_parts(std::size_t count, Body&& body) {
-    const auto end = static_cast<std::int64_t>(count);
-#pragma omp parallel for schedule(static) if (count > 1)
-    for (std::int64_t part = 0; part < end; ++part) body(static_cast<std::size_t>(part));
+    parallel::for_shares(count, count <= 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t part = begin; part < end; ++part) body(part);
+    });
 }
 
 /// Calls body(block, begin, end) for consecutive blocks of `block_size` indices that cover [0, count).
 template <class Body>
 void parallel_for_blocks(std::size_t count, std::size_t block_size, Body&& body) {
-    const auto blocks = static_cast<std::int64_t>((count + block_size - 1) / block_size);
-#pragma omp parallel for schedule(static) if (count > parallel::serial_limit)
-    for (std::int64_t block = 0; block < blocks; ++block) {
-        const auto begin = static_cast<std::size_t>(block) * block_size;
-        body(static_cast<std::size_t>(block), begin, std::min(begin + block_size, count));
-    }
+    const std::size_t blocks = (count + block_size - 1) / block_size;
+    parallel::for_shares(blocks, count <= parallel::serial_limit, [&](std::size_t first, std::size_t last) {
+        for (std::size_t block = first; block < last; ++block)
+            body(block, block * block_size, std::min((block + 1) * block_size, count));
+    });
 }
 
 /// The sum of term(k) over [0, count) in a fixed order. T needs a zero default and +=.
@@ -69,27 +102,22 @@ T parallel_sum(std::size_t count, Term&& term) {
 /// The largest of `floor` and all value(k) over [0, count).
 template <class Value>
 double parallel_max(std::size_t count, double floor, Value&& value) {
-    double largest = floor;
-    const auto end = static_cast<std::int64_t>(count);
-#pragma omp parallel for schedule(static) reduction(max : largest) if (count > parallel::serial_limit)
-    for (std::int64_t k = 0; k < end; ++k)
-        largest = std::max(largest, static_cast<double>(value(static_cast<std::size_t>(k))));
-    return largest;
+    return parallel::max_of_shares(count, count <= parallel::serial_limit, floor,
+                                   [&](std::size_t begin, std::size_t end) {
+                                       double largest = floor;
+                                       for (std::size_t k = begin; k < end; ++k)
+                                           largest = std::max(largest, static_cast<double>(value(k)));
+                                       return largest;
+                                   });
 }
 
-/// The largest of 0 and all value(begin, end) over blocks that cover [0, count).
+/// The largest of 0 and all value(begin, end) over parts of [0, count).
 template <class Value>
-double parallel_max_of_blocks(std::size_t count, Value&& value) {
-    if (count <= parallel::serial_limit) return std::max(0.0, static_cast<double>(value(std::size_t{0}, count)));
-    const std::size_t blocks = (count + parallel::sum_block - 1) / parallel::sum_block;
-    double largest = 0.0;
-    const auto end = static_cast<std::int64_t>(blocks);
-#pragma omp parallel for schedule(static) reduction(max : largest)
-    for (std::int64_t block = 0; block < end; ++block) {
-        const auto begin = static_cast<std::size_t>(block) * parallel::sum_block;
-        largest = std::max(largest, static_cast<double>(value(begin, std::min(begin + parallel::sum_block, count))));
-    }
-    return largest;
+double parallel_max_of_parts(std::size_t count, Value&& value) {
+    return parallel::max_of_shares(count, count <= parallel::serial_limit, 0.0,
+                                   [&](std::size_t begin, std::size_t end) {
+                                       return begin == end ? 0.0 : static_cast<double>(value(begin, end));
+                                   });
 }
 
 }  // namespace jostle

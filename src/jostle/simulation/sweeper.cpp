@@ -71,7 +71,7 @@ double Sweeper<Real>::sweep(double omega, SweepOver over) {
     double largest = 0.0;
     const auto pass = [&](auto& group) {
         const auto items = all ? group.all() : group.awake_ones();
-        largest = std::max(largest, parallel_max_of_blocks(items.size(), [&](std::size_t begin, std::size_t end) {
+        largest = std::max(largest, parallel_max_of_parts(items.size(), [&](std::size_t begin, std::size_t end) {
                                return sweep_over(items.subspan(begin, end - begin), omega, velocities_.data(), stirred);
                            }));
     };

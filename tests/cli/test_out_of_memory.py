@@ -1,0 +1,34 @@
+"""Too little memory, for the start or for a step: the run says so, and with enough the same command does all that it was to do."""
+
+import resource
+
+import pytest
+
+from jostle_command import DONE, finish, require_same_results, run, with_steps, write_scene
+
+INTERNAL = 1
+DILUTE = with_steps({"seed": 5, "box": {"volume_fraction": 0.05}, "rods": {"count": 20_000, "length": 5.0},
+                     "time": {"step": 1e-4, "equilibration": 0.0}}, 30)
+
+
+def at_most(megabytes):
+    return lambda: resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_out_of_memory(tmp_path, threads):
+    for name in ("reference", "short"):
+        write_scene(tmp_path / name, DILUTE)
+    reference = finish(tmp_path / "reference", threads=threads)
+    failures = 0
+    for megabytes in range(28, 400, 2 * threads):  # at first not even the libraries fit, or the second thread
+        result = run(tmp_path / "short", threads=threads, preexec_fn=at_most(megabytes))
+        if result.returncode == DONE:
+            break
+        if "loading shared libraries" in result.stderr or "libgomp" in result.stderr:
+            continue
+        assert (result.returncode, result.stdout) == (INTERNAL, ""), result.stderr
+        assert "jostle: out of memory; `jostle check SCENE.toml` estimates what a scene needs\n" in result.stderr
+        failures += 1
+    assert result.returncode == DONE and failures >= 3
+    require_same_results(tmp_path / "short/run", reference, same_command=False)
