@@ -72,7 +72,10 @@ int main(int argc, char** argv) {
     CLI::App* run = app.add_subcommand("run", "Run a scene, or go on with a run of it that was stopped");
     run->add_option("scene", options.scene, "scene file (TOML)")->required();
     run->add_option("--out", options.folder, "folder for the results; default: SCENE's name with .run");
-    run->add_option("--threads", options.threads, "number of threads; the result does not depend on it")
+    run->add_option(
+           "--threads", options.threads,
+           "number of threads, on which the result does not depend; default: one for every 2000 rods, at most one "
+           "a processor")
         ->check(CLI::Range(1, 4096));
     run->add_option("--walltime", wall_time, "stop, ready to go on, before this time is over (H:MM or H:MM:SS)")
         ->check([](const std::string& text) {

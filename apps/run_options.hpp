@@ -8,7 +8,7 @@
 struct RunOptions {
     std::string scene;                ///< path of the scene file
     std::string folder;               ///< --out; empty: the scene's name, in the current folder
-    int threads = 0;                  ///< 0: as many as OpenMP would take
+    int threads = 0;                  ///< 0: as many as are worth starting (parallel::suit_thread_count)
     std::optional<double> wall_time;  ///< seconds; stop before it is over
     bool fresh = false;               ///< move an existing run aside, and start anew
     bool quiet = false;

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from jostle_command import (DONE, STOPPED, changed, checkpoint_step, finish, kill, require_same_results, rows_of, run,
+from jostle_command import (DONE, STOPPED, changed, checkpoint_step, command, finish, kill, require_same_results, rows_of, run,
                             start, wait_until, with_steps, write_scene)
 
 OUTPUT = {"series_every": 2, "trajectory_every": 3, "checkpoint_every": 4, "contacts": True}
@@ -16,6 +16,10 @@ SCENES = {
     "spheres": {"seed": 12, "box": {"volume_fraction": 0.4}, "rods": {"count": 2000, "length": 0.0},
                 "time": {"step": 0.002, "equilibration": 0.0, "production": 0.012}, "output": OUTPUT},
 }
+
+
+def environment_without(*names):
+    return {name: value for name, value in os.environ.items() if name not in names}
 
 
 def threads_of(folder):
@@ -47,10 +51,19 @@ def test_threads_may_change_when_a_run_goes_on(tmp_path):
 @pytest.mark.parametrize("environment", [{}, {"OMP_WAIT_POLICY": "active"}, {"GOMP_SPINCOUNT": "7"}])
 def test_threads_wait_briefly_unless_the_environment_says_how(tmp_path, environment):
     write_scene(tmp_path, with_steps(SCENES["spheres"], 10**6))
-    others = {name: value for name, value in os.environ.items() if name not in ("OMP_WAIT_POLICY", "GOMP_SPINCOUNT")}
-    process = start(tmp_path, env={**others, **environment})
+    process = start(tmp_path, env={**environment_without("OMP_WAIT_POLICY", "GOMP_SPINCOUNT"), **environment})
     wait_until(lambda: rows_of(tmp_path / "run/series.csv") > 0, process)
     seen = dict(entry.split("=", 1) for entry in Path(f"/proc/{process.pid}/environ").read_text().split("\0") if entry)
     kill(process)
     expected = environment or {"GOMP_SPINCOUNT": "1000"}
     assert {name: seen[name] for name in ("OMP_WAIT_POLICY", "GOMP_SPINCOUNT") if name in seen} == expected
+
+
+@pytest.mark.parametrize("count, environment, expected", [
+    (3999, {}, 1), (4000, {}, min(2, len(os.sched_getaffinity(0)))), (100, {"OMP_NUM_THREADS": "2"}, 2)])
+def test_threads_are_started_where_they_are_worth_it(tmp_path, count, environment, expected):
+    write_scene(tmp_path, with_steps(changed(SCENES["spheres"], box={"volume_fraction": 0.01}, rods={"count": count}), 2))
+    result = command(tmp_path, "run", "scene.toml", "--out", "run",
+                     env={**environment_without("OMP_NUM_THREADS"), **environment})
+    assert result.returncode == DONE, result.stderr
+    assert threads_of(tmp_path / "run") == [expected]

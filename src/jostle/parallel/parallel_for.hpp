@@ -18,6 +18,10 @@ namespace parallel {
 void set_thread_count(int count);
 int thread_count();
 
+/// Takes as many threads as are worth starting for an assembly of so many rods, one for every 2000, and no more than
+/// there are processors; unless their number was set, above or by OMP_NUM_THREADS.
+void suit_thread_count(std::size_t rods);
+
 /// The part of a loop that the calling thread is to do.
 std::pair<std::size_t, std::size_t> own_share(std::size_t count);
 

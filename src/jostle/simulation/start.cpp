@@ -8,6 +8,7 @@
 #include "jostle/error/input_error.hpp"
 #include "jostle/mobility/drag_mobility.hpp"
 #include "jostle/motion/brownian_motion.hpp"
+#include "jostle/parallel/parallel_for.hpp"
 #include "jostle/rods/space_filling_order.hpp"
 #include "jostle/simulation/largest_overlap.hpp"
 #include "jostle/simulation/push_apart.hpp"
@@ -163,6 +164,7 @@ Rods checked(Rods rods, const Box& box, const Scene& scene) {
 }  // namespace
 
 Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& from_file) {
+    parallel::suit_thread_count(scene.rods.count);
     switch (scene.rods.start) {
         case StartKind::random:
             return pushed_apart(scattered_rods(scene, box, std::nullopt), box, true, scene);

@@ -47,6 +47,7 @@ StepReport Simulation::step() {
     report.rods = rods_.size();
     PhaseTimer timer(report);
 
+    parallel::suit_thread_count(rods_.size());
     renumber();
     find_known_velocity();
     timer.finish(StepPhase::known_velocity);
