@@ -1,7 +1,11 @@
-"""Makes docs/validation from the results of the full studies: one page, and beside it every figure and table."""
+"""Makes docs/validation from the results of full studies: one page, and beside it every figure and table.
+
+Studies without results keep what the page says of them.
+"""
 
 import json
 import pathlib
+import re
 import shutil
 
 import report
@@ -21,15 +25,18 @@ from runs of the program itself; one study alone by `studies/run NAME`, in a min
 verdict in studies/results/NAME, and exits 0 only if every check has passed. References: [studies/reference](../../studies/reference/README.md).
 """
 
+# How a section begins: what the overview is made of.
+TITLE = re.compile(r'## <a name="(?P<name>\w+)"></a>(?P<title>.*)\n\n'
+                   r"`studies/run \w+`: \*\*(?P<verdict>\w+)\*\*, (?P<checks>\d+ of \d+) checks\. "
+                   r"Runs: (?P<runs>\d+), rod steps (?P<rod_steps>\S+), processor time (?P<time>.+?), ")
+
 
 def write(results, names):
-    verdicts = []
-    for name in names:
-        path = results / name / "verdict.json"
-        if not path.exists():
-            raise runs.RunFailed(f"{path} is missing: studies/run {name} makes it")
-        verdicts.append(json.loads(path.read_text(encoding="utf-8")))
-    FOLDER.mkdir(parents=True, exist_ok=True)
+    """Renews what there are results of."""
+    paths = [path for path in (results / name / "verdict.json" for name in names) if path.exists()]
+    if not paths:
+        raise runs.RunFailed(f"no full study has been run: studies/run {names[0]} makes {results / names[0] / 'verdict.json'}")
+    verdicts = [json.loads(path.read_text(encoding="utf-8")) for path in paths]
     for verdict in verdicts:
         folder = results / verdict["study"]
         for picture in verdict["figures"]:
@@ -38,27 +45,31 @@ def write(results, names):
                 if ending == ".png" or file.stat().st_size < LARGEST_FILE:  # pictures of thousands of cells are no vector graphics
                     shutil.copy(file, FOLDER)
         shutil.copy(folder / (verdict["study"] + ".csv"), FOLDER)
-    text = "\n".join([HEAD, overview(verdicts), *(section(verdict) for verdict in verdicts)])
-    (FOLDER / "README.md").write_text(text, encoding="utf-8")
-    print(f"{FOLDER}/README.md")
+    page = FOLDER / "README.md"
+    page.write_text(renewed(page.read_text(encoding="utf-8"), verdicts, names), encoding="utf-8")
+    print(page)
 
 
-def overview(verdicts):
-    rows = [[f"[{verdict['title']}](#{verdict['study']})", "pass" if verdict["passed"] else "FAIL",
-             f"{sum(check['passed'] for check in verdict['checks'])} of {len(verdict['checks'])}", str(verdict["runs"]),
-             f"{verdict['rod_steps']:.2e}", runs.duration(verdict["processor_seconds"])] for verdict in verdicts]
-    total = sum(verdict["processor_seconds"] for verdict in verdicts)
-    versions = sorted({version for verdict in verdicts for version in verdict["versions"]})
-    processors = sorted({processor for verdict in verdicts for processor in verdict["processors"]})
-    return "\n".join([
-        report.markdown({"header": ["study", "verdict", "checks passed", "runs", "rod steps", "time"], "rows": rows}),
-        "", f"{runs.duration(total)} of runs in all, one thread each, on {', '.join(processors)}; jostle "
-        f"{', '.join(versions)}.", ""])
+def renewed(page, verdicts, names):
+    """The page with the sections of these verdicts in place of theirs."""
+    sections = {TITLE.match(text)["name"]: text for text in re.split(r"\n(?=## <a name)", page)[1:]}
+    sections |= {verdict["study"]: section(verdict) for verdict in verdicts}
+    texts = [sections[name] for name in names if name in sections]
+    return "\n".join([HEAD, overview(texts), *texts])
+
+
+def overview(sections):
+    begins = [TITLE.match(text) for text in sections]
+    rows = [[f"[{begin['title']}](#{begin['name']})", *begin.group("verdict", "checks", "runs", "rod_steps", "time")] for begin in begins]
+    return report.markdown({"header": ["study", "verdict", "checks passed", "runs", "rod steps", "processor time"], "rows": rows}) + "\n"
 
 
 def section(verdict):
+    passed = sum(check["passed"] for check in verdict["checks"])
     lines = [f'## <a name="{verdict["study"]}"></a>{verdict["title"]}', "",
-             f"`studies/run {verdict['study']}`: **{'pass' if verdict['passed'] else 'FAIL'}**", "", verdict["question"], ""]
+             f"`studies/run {verdict['study']}`: **{'pass' if verdict['passed'] else 'FAIL'}**, {passed} of {len(verdict['checks'])} checks. "
+             f"Runs: {verdict['runs']}, rod steps {verdict['rod_steps']:.2e}, processor time {runs.duration(verdict['processor_seconds'])}, "
+             f"on {', '.join(verdict['processors'])}; jostle {', '.join(verdict['versions'])}.", "", verdict["question"], ""]
     for picture in verdict["figures"]:
         lines += [f"![{picture['caption']}]({picture['file']}.png)", "", picture["caption"], ""]
     for remark in verdict["remarks"]:

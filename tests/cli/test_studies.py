@@ -14,7 +14,8 @@ from jostle_command import JOSTLE, wait_until
 STUDIES = pathlib.Path(__file__).resolve().parents[2] / "studies"
 sys.path.insert(0, str(STUDIES))
 
-import reference_values  # noqa: E402  (the path comes first)
+import page  # noqa: E402  (the path comes first)
+import reference_values  # noqa: E402
 from report import Report  # noqa: E402
 
 
@@ -63,9 +64,27 @@ def test_bad_requests(tmp_path):
     missing = study("drag_independence", "--quick", "--jostle", tmp_path / "none", "--results", tmp_path)
     assert missing.returncode == 2 and "there is no program" in missing.stderr
     assert study("drag_independence", "--quick", "--processes", "0").returncode == 2
-    page = study("page", "--results", tmp_path)
-    assert page.returncode == 2 and "studies/run isotropic_pressure makes it" in page.stderr
+    no_results = study("page", "--results", tmp_path)
+    assert no_results.returncode == 2 and "studies/run isotropic_pressure makes" in no_results.stderr
     assert list(tmp_path.iterdir()) == []
+
+
+def test_the_page_is_renewed_study_by_study():
+    text = page.FOLDER.joinpath("README.md").read_text(encoding="utf-8")
+    names = ["isotropic_pressure", "time_step", "nematic_transition", "conventions", "potential_race", "drag_independence",
+             "dividing_cells", "self_propelled", "colony"]
+    assert page.renewed(text, [], names) == text
+    check = {"name": "size", "passed": False, "measured": 2.0, "expected": 1.0, "allowed": 0.0, "rule": "at most 1"}
+    verdict = {"study": "time_step", "title": "A title", "question": "How?", "passed": False, "checks": [check], "remarks": ["So."],
+               "tables": [], "figures": [], "runs": 3, "rod_steps": 4.0e5, "processor_seconds": 67.0, "processors": ["One"],
+               "versions": ["0.1.0 (abc)"]}
+    renewed = page.renewed(text, [verdict], names)
+    assert "|    FAIL |        0 of 1 |    3 |  4.00e+05 |     1 min 07 s |" in renewed and "[A title](#time_step)" in renewed
+    assert "|  size |        2 |        1 |       0 | at most 1 |" in renewed and "on One; jostle 0.1.0 (abc)." in renewed
+    begin, end = text.index('## <a name="time_step"'), text.index('## <a name="nematic_transition"')
+    assert renewed.index('## <a name="nematic_transition"') > renewed.index('## <a name="time_step"') > 0
+    assert text[end:] in renewed and text[begin:end] not in renewed
+    assert page.renewed(renewed, [], names) == renewed
 
 
 def test_stop_and_resume(tmp_path):
