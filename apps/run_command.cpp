@@ -38,6 +38,9 @@ constexpr std::size_t looks_per_production = 20;
 /// Steps of large assemblies take long: a crash shall cost no more than this.
 constexpr std::chrono::minutes longest_between_checkpoints{10};
 
+/// From so many rods on it takes seconds, or minutes, to place them at random.
+constexpr std::uint64_t many_to_place = 5000;
+
 /// Decides, from the series alone, when a run has all that it was asked for.
 class RunLength {
 public:
@@ -248,6 +251,10 @@ bool has_rows(const std::string& series) {
 
 ExitCode start_run(const RunOptions& options, const Scene& scene, const std::string& resolved,
                    const std::string& folder) {
+    const bool draws = scene.rods.start == StartKind::random || scene.rods.start == StartKind::aligned;
+    if (draws && scene.rods.count >= many_to_place && !options.quiet && !options.json)
+        std::fprintf(stderr, "jostle: placing %llu rods without overlap\n",
+                     static_cast<unsigned long long>(scene.rods.count));
     // The start is made before anything is touched on the disk: a scene that does not work out leaves no trace.
     Beginning beginning = beginning_of(scene, options.scene);
     Simulation simulation = assemble(scene, beginning.box, std::move(beginning.rods), {}, std::move(beginning.springs));
