@@ -172,7 +172,7 @@ ExitCode check_command(const std::string& scene_path) {
     const double phi = population.volume / box.volume();
     const auto mobility = make_mobility(scene, population.rods);
     const double dt = time_step(scene, *mobility, population.rods);
-    require_slow_tumbles_in_file(scene, scene_path, population.rods);
+    require_slow_swimmers_in_file(scene, scene_path, population.rods);
     const SpringsOfScene springs = springs_of(scene, scene_path, population, *mobility, dt);
     const auto field = field_in_file(scene, scene_path, box);
     const UnitSystem units = scene.units.system;

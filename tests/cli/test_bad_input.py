@@ -106,6 +106,8 @@ def test_growth(finished_copy, entry):
 
 # Of rods that swim and tumble.
 SWIMMERS = [
+    ("self_propulsion", 26.0, "takes a rod through others in a single step of 0.02", "up to 25, half a diameter in a step", "slower swimmers"),
+    ("self_propulsion", -26.0, "is negative", "at least 0"),
     ("self_propulsion_deviation", -0.5, "is negative", "at least 0"),
     ("self_propulsion_deviation", Verbatim("nan"), "is not a finite number", "at least 0"),
     ("tumble_rate", -1.0, "is negative", "at least 0"),
@@ -134,12 +136,16 @@ def test_swimmers(finished_copy, entry):
     refuse(finished_copy, scene, f"jostle: scene.toml:{at}: motion.{key} = ", *parts)
 
 
-def test_tumbles_too_fast_for_a_step_from_the_diffusion(tmp_path):
+def test_swimmers_too_fast_for_a_step_from_the_diffusion(tmp_path):
     scene = changed(RODS, motion={"self_propulsion": 1.0, "tumble_rate": 0.5, "tumble_time": 0.01}, time={"step": None})
     write_scene(tmp_path, scene)
     for name in ("check", "run"):
         require_one_line(command(tmp_path, name, "scene.toml"), "jostle: scene.toml: motion.tumble_time = 0.01: is too short",
                          "(allowed: at least ", "Use a shorter time.step or slower tumbles")
+    write_scene(tmp_path, changed(scene, motion={"self_propulsion": 3000.0, "tumble_time": None}))
+    for name in ("check", "run"):
+        require_one_line(command(tmp_path, name, "scene.toml"), "jostle: scene.toml: motion.self_propulsion = 3000: takes a rod",
+                         "(allowed: speeds up to ", "Use a shorter time.step or slower swimmers")
     assert sorted(entry.name for entry in tmp_path.iterdir()) == ["scene.toml"]
 
 

@@ -55,9 +55,9 @@ Box box_of(const Scene& scene, const std::optional<Rods>& rods) {
     return {box_edges(scene, volume), scene.box.periodic};
 }
 
-void require_slow_tumbles_in_file(const Scene& scene, const std::filesystem::path& scene_path, const Rods& rods) {
+void require_slow_swimmers_in_file(const Scene& scene, const std::filesystem::path& scene_path, const Rods& rods) {
     try {
-        require_slow_tumbles(scene, rods, time_step(scene, *make_mobility(scene, rods), rods));
+        require_slow_swimmers(scene, rods, time_step(scene, *make_mobility(scene, rods), rods));
     } catch (const InputError& error) {
         throw error.with_place({scene_path.string()});
     }
@@ -98,7 +98,7 @@ Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_pa
         const auto from_file = rods_from_file(scene, scene_path);
         const Box box = box_of(scene, from_file);
         Beginning beginning = {box, make_start(scene, box, from_file), {}};
-        require_slow_tumbles_in_file(scene, scene_path, beginning.rods);
+        require_slow_swimmers_in_file(scene, scene_path, beginning.rods);
         field_in_file(scene, scene_path, box);
         beginning.springs = springs_from_file(scene, scene_path, beginning.rods);
         hold_nearest_images(beginning.springs, beginning.rods, box);

@@ -38,8 +38,8 @@ double slow_springs_in_file(const Scene& scene, const std::filesystem::path& sce
 /// The stress field of a scene. Errors: InputError, with the scene's name, where its cells are too many.
 std::optional<StressField> field_in_file(const Scene& scene, const std::filesystem::path& scene_path, const Box& box);
 
-/// Throws InputError, with the scene's name, where tumbles are too fast for the time step.
-void require_slow_tumbles_in_file(const Scene& scene, const std::filesystem::path& scene_path, const Rods& rods);
+/// Throws InputError, with the scene's name, where rods swim or tumble too fast for the time step.
+void require_slow_swimmers_in_file(const Scene& scene, const std::filesystem::path& scene_path, const Rods& rods);
 
 /// Makes the start of a scene. Errors: InputError where the rods do not fit.
 Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_path);

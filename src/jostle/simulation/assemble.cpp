@@ -23,15 +23,18 @@ namespace {
 constexpr double automatic_tumble_share = 0.1;
 /// A tumble that turns the ends of a rod by more than this in a step (in D) could carry them through others.
 constexpr double farthest_turn = 0.25;
+/// A rod that swims farther than this in a step (in D) could pass through others.
+constexpr double farthest_swim = 0.5;
 /// Persistence times after which a free swimmer has forgotten where it swam: exp(-5) = 0.7 %.
 constexpr double automatic_lag = 5.0;
 
-[[noreturn]] void refuse_tumbles(const char* key, double value, std::string problem, std::string allowed) {
+[[noreturn]] void refuse_swimmers(const char* key, double value, std::string problem, std::string allowed) {
     throw InputError({.key = key,
                       .value = fmt::format("{:.4g}", value),
                       .problem = std::move(problem),
                       .allowed = std::move(allowed),
-                      .suggestion = "Use a shorter time.step or slower tumbles",
+                      .suggestion = std::string("Use a shorter time.step or slower ") +
+                                    (std::string_view(key).starts_with("motion.tumble") ? "tumbles" : "swimmers"),
                       .place = {}});
 }
 
@@ -82,21 +85,29 @@ Swimming swimming_of(const Scene& scene) {
     return swimming;
 }
 
-void require_slow_tumbles(const Scene& scene, const Rods& rods, double time_step) {
+void require_slow_swimmers(const Scene& scene, const Rods& rods, double time_step) {
     const Swimming swimming = swimming_of(scene);
+    const std::vector<double> speed = SelfPropulsion(swimming).speeds(rods, scene.seed);
+    for (std::size_t i = 0; i < rods.size() && swimming.speed != 0.0; ++i) {
+        const double most = farthest_swim * rods.diameter[i] / time_step;
+        if (std::fabs(speed[i]) > most)
+            refuse_swimmers("motion.self_propulsion", speed[i],
+                            fmt::format("takes a rod through others in a single step of {:.4g}", time_step),
+                            fmt::format("speeds up to {:.4g}, half a diameter in a step", most));
+    }
     if (swimming.tumble_rate == 0.0) return;
     if (swimming.tumble_rate * time_step > 1.0)
-        refuse_tumbles("motion.tumble_rate", swimming.tumble_rate, "is more than one tumble in a time step",
-                       fmt::format("at most {:.4g}", 1.0 / time_step));
+        refuse_swimmers("motion.tumble_rate", swimming.tumble_rate, "is more than one tumble in a time step",
+                        fmt::format("at most {:.4g}", 1.0 / time_step));
     const double grown = scene.growth.rate > 0.0 ? scene.growth.division_length : 0.0;
     const auto steps = static_cast<double>(Tumbles(swimming.tumble_rate, swimming.tumble_time).steps(time_step));
     for (std::size_t i = 0; i < rods.size(); ++i) {
         const double longest = std::max(rods.length[i], grown);
         const double fewest = std::numbers::pi * 0.5 * longest / (farthest_turn * rods.diameter[i]);
         if (steps < fewest)
-            refuse_tumbles("motion.tumble_time", swimming.tumble_time,
-                           "is too short: the ends of a rod would pass through others in a single step",
-                           fmt::format("at least {:.4g}", std::ceil(fewest) * time_step));
+            refuse_swimmers("motion.tumble_time", swimming.tumble_time,
+                            "is too short: the ends of a rod would pass through others in a single step",
+                            fmt::format("at least {:.4g}", std::ceil(fewest) * time_step));
     }
 }
 

@@ -26,9 +26,9 @@ double thermal_energy(const Scene& scene);
 /// How the rods of a scene swim.
 Swimming swimming_of(const Scene& scene);
 
-/// Throws InputError where tumbles are too fast for the time step: the ends of a rod, or of a cell as long as it gets,
-/// could pass through others.
-void require_slow_tumbles(const Scene& scene, const Rods& rods, double time_step);
+/// Throws InputError where rods swim or tumble too fast for the time step: they, or the ends of one, or of a cell as
+/// long as it gets, could pass through others.
+void require_slow_swimmers(const Scene& scene, const Rods& rods, double time_step);
 
 /// How long a free swimmer keeps its direction, 1/(2 D_R + tumble rate + 2 reversal rate): of the first `rod_count`
 /// rods the one that does so longest; infinite without rotation, tumbles and reversals.

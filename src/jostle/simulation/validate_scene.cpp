@@ -198,16 +198,15 @@ void check_packing(const Scene& scene) {
 
 void check_motion(const Scene& scene) {
     const double rate = scene.motion.tumble_rate;
-    if (rate == 0.0) return;
     const double longest = Tumbles::largest_share / rate;
-    if (scene.motion.tumble_time && !(*scene.motion.tumble_time <= longest))
+    if (rate > 0.0 && scene.motion.tumble_time && !(*scene.motion.tumble_time <= longest))
         refuse("motion.tumble_time", text(*scene.motion.tumble_time),
                fmt::format("leaves rods no time to swim between tumbles: motion.tumble_rate = {}", rate),
                fmt::format("at most {}", rounded(longest)), "Lower tumble_time or tumble_rate");
     if (!scene.time.step || scene.rods.start == StartKind::file) return;  // is looked at once there are rods
     Rods one;
     one.push_back(0, {}, {1, 0, 0}, scene.rods.length, scene.rods.diameter);
-    require_slow_tumbles(scene, one, *scene.time.step);
+    require_slow_swimmers(scene, one, *scene.time.step);
 }
 
 void check_mobility(const Scene& scene) {

@@ -26,12 +26,12 @@ public:
         draw_box(scene);
         for (bool& open : scene.box.periodic) open = chance();
         scene.fluid = {number(1e-3, 10), chance() ? number(1e-3, 10) : 0.0};
-        draw_motion(scene);
+        scene.motion.brownian = chance();
         const bool slender = chance() && scene.rods.length / scene.rods.diameter > 6.0;  // the least of all: 1/7
         scene.mobility.model = slender ? MobilityModel::slender_body : MobilityModel::finite_aspect_ratio;
         draw_contact(scene);
         draw_time(scene);
-        draw_tumbles(scene);
+        draw_swimming(scene);
         scene.output.series_every = 1 + random_() % 1000;
         scene.output.trajectory_every = random_() % 1000;
         scene.output.checkpoint_every = 1 + (random_() >> 2);
@@ -64,17 +64,14 @@ private:
         return drawn;
     }
 
-    void draw_motion(Scene& scene) {
-        scene.motion.brownian = chance();
+    /// Slow enough for the step, if that is known.
+    void draw_swimming(Scene& scene) {
         if (chance()) return;
-        scene.motion.self_propulsion = number(1e-5, 1e5);
-        if (chance()) scene.motion.self_propulsion_deviation = number(1e-5, 1e5);
+        const double step = scene.time.step.value_or(1.0), fast = 0.05 * scene.rods.diameter / step;
+        scene.motion.self_propulsion = number(1e-5 * fast, fast);
+        if (chance()) scene.motion.self_propulsion_deviation = number(1e-5 * fast, fast);
         if (chance()) scene.motion.reversal_rate = number(1e-5, 1e5);
-    }
-
-    void draw_tumbles(Scene& scene) {
-        if (scene.motion.self_propulsion == 0.0 || chance()) return;
-        const double step = scene.time.step.value_or(1.0);
+        if (chance()) return;
         scene.motion.tumble_rate = number(1e-6, 1e-4) / step;
         if (chance()) scene.motion.tumble_time = number(200, 1e4) * step;
     }

@@ -33,7 +33,7 @@ Scene crowd() {
 std::string refused_key(const Scene& scene) {
     try {
         const Rods rods = make_start(crowd(), box);
-        require_slow_tumbles(scene, rods, time_step(scene, *make_mobility(scene, rods), rods));
+        require_slow_swimmers(scene, rods, time_step(scene, *make_mobility(scene, rods), rods));
     } catch (const InputError& error) {
         CHECK(!error.parts().allowed.empty());
         return error.parts().key;
