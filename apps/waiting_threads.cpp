@@ -3,9 +3,13 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <system_error>
 
 void give_way_to_other_programs(char** words) {
     if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
     ::setenv("GOMP_SPINCOUNT", "1000", 1);  // what the library takes by itself where it starts too many threads
-    ::execv("/proc/self/exe", words);       // returns only if it could not
+    std::error_code unknown;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown);
+    if (!unknown) ::execv(program.c_str(), words);  // returns only if it could not
 }

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from jostle_command import (DONE, STOPPED, changed, checkpoint_step, command, finish, kill, require_same_results, rows_of, run,
+from jostle_command import (DONE, JOSTLE, STOPPED, changed, checkpoint_step, command, finish, kill, require_same_results, rows_of, run,
                             start, wait_until, with_steps, write_scene)
 
 OUTPUT = {"series_every": 2, "trajectory_every": 3, "checkpoint_every": 4, "contacts": True}
@@ -50,10 +50,11 @@ def test_threads_may_change_when_a_run_goes_on(tmp_path):
 
 @pytest.mark.parametrize("environment", [{}, {"OMP_WAIT_POLICY": "active"}, {"GOMP_SPINCOUNT": "7"}])
 def test_threads_wait_briefly_unless_the_environment_says_how(tmp_path, environment):
-    write_scene(tmp_path, with_steps(SCENES["spheres"], 10**6))
+    write_scene(tmp_path, with_steps(changed(SCENES["spheres"], rods={"count": 100}), 10**6))
     process = start(tmp_path, env={**environment_without("OMP_WAIT_POLICY", "GOMP_SPINCOUNT"), **environment})
     wait_until(lambda: rows_of(tmp_path / "run/series.csv") > 0, process)
     seen = dict(entry.split("=", 1) for entry in Path(f"/proc/{process.pid}/environ").read_text().split("\0") if entry)
+    assert Path(f"/proc/{process.pid}/comm").read_text() == Path(JOSTLE).name + "\n"
     kill(process)
     expected = environment or {"GOMP_SPINCOUNT": "1000"}
     assert {name: seen[name] for name in ("OMP_WAIT_POLICY", "GOMP_SPINCOUNT") if name in seen} == expected
