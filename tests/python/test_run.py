@@ -85,7 +85,8 @@ def test_a_run_that_goes_on_and_one_that_was_killed(tmp_path):
                                env={**os.environ, "OMP_NUM_THREADS": "1"})
     try:
         end = time.monotonic() + 60
-        while not (tmp_path / "run/series.csv").exists() or len(jostle.load(tmp_path / "run").series) < 20:
+        series = tmp_path / "run/series.csv"
+        while not series.exists() or "\n" not in series.read_text() or len(jostle.load(tmp_path / "run").series) < 20:
             assert process.poll() is None and time.monotonic() < end
             time.sleep(0.01)
         run = jostle.load(tmp_path / "run")
