@@ -11,6 +11,7 @@ namespace {
 /// For fewer, loops are so short that another thread saves no more than waiting for it takes (docs/performance.md).
 constexpr std::size_t rods_per_thread = 2000;
 
+const auto processors = static_cast<std::size_t>(omp_get_num_procs());
 bool is_set = std::getenv("OMP_NUM_THREADS") != nullptr;
 
 }  // namespace
@@ -22,7 +23,6 @@ void set_thread_count(int count) {
 
 void suit_thread_count(std::size_t rods) {
     if (is_set) return;
-    const auto processors = static_cast<std::size_t>(omp_get_num_procs());
     omp_set_num_threads(static_cast<int>(std::clamp(rods / rods_per_thread, std::size_t{1}, processors)));
 }
 

@@ -87,8 +87,9 @@ Swimming swimming_of(const Scene& scene) {
 
 void require_slow_swimmers(const Scene& scene, const Rods& rods, double time_step) {
     const Swimming swimming = swimming_of(scene);
+    if (swimming.speed == 0.0) return;
     const std::vector<double> speed = SelfPropulsion(swimming).speeds(rods, scene.seed);
-    for (std::size_t i = 0; i < rods.size() && swimming.speed != 0.0; ++i) {
+    for (std::size_t i = 0; i < rods.size(); ++i) {
         const double most = farthest_swim * rods.diameter[i] / time_step;
         if (std::fabs(speed[i]) > most)
             refuse_swimmers("motion.self_propulsion", speed[i],
