@@ -14,7 +14,8 @@
 #include "jostle/io/units.hpp"
 #include "jostle/simulation/assemble.hpp"
 #include "jostle/simulation/rod_size.hpp"
-#include "jostle/simulation/validate_scene.hpp"
+#include "jostle/simulation/scene_box.hpp"
+#include "jostle/simulation/scene_motion.hpp"
 
 using namespace jostle;
 

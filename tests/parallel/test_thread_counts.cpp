@@ -44,6 +44,19 @@ private:
     int former_;
 };
 
+/// Calls body(count) for all of them, with every number of threads.
+template <class Body>
+void for_all_counts(Body&& body) {
+    for (const int threads : thread_counts) {
+        const ThreadCount thread_count(threads);
+        for (const std::size_t count : counts) {
+            CAPTURE(threads);
+            CAPTURE(count);
+            body(count);
+        }
+    }
+}
+
 /// Terms of very different size, so that any other order of summation gives other last bits.
 double uneven_term(std::size_t k) {
     const auto u = uniform4({.seed = 5, .id = k}, 0);
@@ -182,67 +195,46 @@ TEST_CASE("the number of threads is at least one, and what was set") {
 }
 
 TEST_CASE("parallel_for visits every index once") {
-    for (const int threads : thread_counts) {
-        const ThreadCount thread_count(threads);
-        for (const std::size_t count : counts) {
-            CAPTURE(threads);
-            CAPTURE(count);
-            std::vector<int> visits(count, 0);
-            parallel_for(count, [&](std::size_t k) { ++visits[k]; });
-            CHECK(visits == std::vector<int>(count, 1));
-        }
-    }
+    for_all_counts([](std::size_t count) {
+        std::vector<int> visits(count, 0);
+        parallel_for(count, [&](std::size_t k) { ++visits[k]; });
+        CHECK(visits == std::vector<int>(count, 1));
+    });
 }
 
 TEST_CASE("what a call throws on any thread is thrown where the loop was called, and later loops run as before") {
-    for (const int threads : thread_counts) {
-        const ThreadCount thread_count(threads);
-        for (const std::size_t count : counts) {
-            CAPTURE(threads);
-            CAPTURE(count);
-            const std::size_t bad = count - 1;  // of the last thread
-            const auto fail_at_bad = [bad](std::size_t k) { return k == bad ? throw std::bad_alloc() : 1.0; };
-            if (count > 0) {
-                CHECK_THROWS_AS(parallel_for(count, fail_at_bad), std::bad_alloc);
-                CHECK_THROWS_AS(parallel_for_parts(count, fail_at_bad), std::bad_alloc);
-                CHECK_THROWS_AS(parallel_sum<double>(count, fail_at_bad), std::bad_alloc);
-                CHECK_THROWS_AS(parallel_max(count, 0.0, fail_at_bad), std::bad_alloc);
-            }
-            CHECK(parallel_sum<double>(count, [](std::size_t) { return 1.0; }) == static_cast<double>(count));
+    for_all_counts([](std::size_t count) {
+        const std::size_t bad = count - 1;  // of the last thread
+        const auto fail_at_bad = [bad](std::size_t k) { return k == bad ? throw std::bad_alloc() : 1.0; };
+        if (count > 0) {
+            CHECK_THROWS_AS(parallel_for(count, fail_at_bad), std::bad_alloc);
+            CHECK_THROWS_AS(parallel_for_parts(count, fail_at_bad), std::bad_alloc);
+            CHECK_THROWS_AS(parallel_sum<double>(count, fail_at_bad), std::bad_alloc);
+            CHECK_THROWS_AS(parallel_max(count, 0.0, fail_at_bad), std::bad_alloc);
         }
-    }
+        CHECK(parallel_sum<double>(count, [](std::size_t) { return 1.0; }) == static_cast<double>(count));
+    });
 }
 
 TEST_CASE("parallel_for_blocks covers all indices with blocks that end at multiples of the block size") {
-    for (const int threads : thread_counts) {
-        const ThreadCount thread_count(threads);
-        for (const std::size_t count : counts) {
-            CAPTURE(threads);
-            CAPTURE(count);
-            constexpr std::size_t block_size = 64;
-            std::vector<int> visits(count, 0);
-            std::atomic<std::size_t> misplaced = 0;
-            parallel_for_blocks(count, block_size, [&](std::size_t block, std::size_t begin, std::size_t end) {
-                if (begin != block * block_size || end <= begin || (end != count && end != begin + block_size))
-                    ++misplaced;
-                for (std::size_t k = begin; k < end; ++k) ++visits[k];
-            });
-            CHECK(misplaced == 0);
-            CHECK(visits == std::vector<int>(count, 1));
-        }
-    }
+    for_all_counts([](std::size_t count) {
+        constexpr std::size_t block_size = 64;
+        std::vector<int> visits(count, 0);
+        std::atomic<std::size_t> misplaced = 0;
+        parallel_for_blocks(count, block_size, [&](std::size_t block, std::size_t begin, std::size_t end) {
+            if (begin != block * block_size || end <= begin || (end != count && end != begin + block_size)) ++misplaced;
+            for (std::size_t k = begin; k < end; ++k) ++visits[k];
+        });
+        CHECK(misplaced == 0);
+        CHECK(visits == std::vector<int>(count, 1));
+    });
 }
 
 TEST_CASE("parallel_sum: the sum of whole numbers is exact, and a default value where there is nothing to sum") {
-    for (const int threads : thread_counts) {
-        const ThreadCount thread_count(threads);
-        for (const std::size_t count : counts) {
-            CAPTURE(threads);
-            CAPTURE(count);
-            const auto sum = parallel_sum<std::uint64_t>(count, [](std::size_t k) { return std::uint64_t{k} + 1; });
-            CHECK(sum == std::uint64_t{count} * (count + 1) / 2);
-        }
-    }
+    for_all_counts([](std::size_t count) {
+        const auto sum = parallel_sum<std::uint64_t>(count, [](std::size_t k) { return std::uint64_t{k} + 1; });
+        CHECK(sum == std::uint64_t{count} * (count + 1) / 2);
+    });
 }
 
 TEST_CASE("parallel_sum: the bits of a rounded sum do not depend on the number of threads") {
@@ -272,16 +264,11 @@ TEST_CASE("parallel_sum adds block after block: the order is that of its definit
 }
 
 TEST_CASE("parallel_max finds the largest value wherever it lies, and never less than the floor") {
-    for (const int threads : thread_counts) {
-        const ThreadCount thread_count(threads);
-        for (const std::size_t count : counts) {
-            CAPTURE(threads);
-            CAPTURE(count);
-            CHECK(parallel_max(count, 3.5, [](std::size_t) { return -1.0; }) == 3.5);
-            for (const std::size_t place : {std::size_t{0}, count / 2, count - 1}) {
-                if (place >= count) continue;
-                CHECK(parallel_max(count, -1.0, [place](std::size_t k) { return k == place ? 2.0 : 1.0; }) == 2.0);
-            }
+    for_all_counts([](std::size_t count) {
+        CHECK(parallel_max(count, 3.5, [](std::size_t) { return -1.0; }) == 3.5);
+        for (const std::size_t place : {std::size_t{0}, count / 2, count - 1}) {
+            if (place >= count) continue;
+            CHECK(parallel_max(count, -1.0, [place](std::size_t k) { return k == place ? 2.0 : 1.0; }) == 2.0);
         }
-    }
+    });
 }

@@ -8,10 +8,11 @@
 #include <cmath>
 #include <vector>
 
+#include "jostle/motion/self_propulsion.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/simulation/assemble.hpp"
+#include "jostle/simulation/scene_box.hpp"
 #include "jostle/simulation/start.hpp"
-#include "jostle/simulation/validate_scene.hpp"
 #include "jostle/statistics/time_series.hpp"
 #include "jostle/stress/active_stress.hpp"
 

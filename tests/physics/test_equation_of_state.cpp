@@ -8,8 +8,8 @@
 
 #include "jostle/simulation/assemble.hpp"
 #include "jostle/simulation/rod_size.hpp"
+#include "jostle/simulation/scene_box.hpp"
 #include "jostle/simulation/start.hpp"
-#include "jostle/simulation/validate_scene.hpp"
 #include "jostle/statistics/time_series.hpp"
 
 using namespace jostle;

@@ -14,8 +14,9 @@
 
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/simulation/assemble.hpp"
+#include "jostle/simulation/scene_box.hpp"
+#include "jostle/simulation/scene_motion.hpp"
 #include "jostle/simulation/start.hpp"
-#include "jostle/simulation/validate_scene.hpp"
 #include "jostle/stress/active_stress.hpp"
 
 using namespace jostle;

@@ -8,7 +8,9 @@
 #include "jostle/io/rods_file.hpp"
 #include "jostle/io/springs_file.hpp"
 #include "jostle/simulation/assemble.hpp"
+#include "jostle/simulation/scene_box.hpp"
 #include "jostle/simulation/start.hpp"
+#include "jostle/simulation/step_limits.hpp"
 #include "jostle/simulation/validate_scene.hpp"
 
 namespace jostle {

@@ -13,6 +13,7 @@
 #include "jostle/io/nearest_word.hpp"
 #include "jostle/io/toml_document.hpp"
 #include "jostle/simulation/scene_keys.hpp"
+#include "jostle/simulation/unused_keys.hpp"
 #include "jostle/simulation/validate_scene.hpp"
 
 namespace jostle {

@@ -8,7 +8,7 @@
 
 #include "jostle/io/units.hpp"
 #include "jostle/simulation/scene_keys.hpp"
-#include "jostle/simulation/validate_scene.hpp"
+#include "jostle/simulation/unused_keys.hpp"
 
 namespace jostle {
 

@@ -8,6 +8,7 @@
 #include "jostle/error/input_error.hpp"
 #include "jostle/motion/self_propulsion.hpp"
 #include "jostle/simulation/assemble.hpp"
+#include "jostle/simulation/scene_motion.hpp"
 
 namespace jostle {
 

@@ -47,6 +47,14 @@ void for_shares(std::size_t count, bool on_one, Share&& share) {
     if (thrown) std::rethrow_exception(thrown);
 }
 
+/// Calls body(k) for every k in [0, count).
+template <class Body>
+void for_each(std::size_t count, bool on_one, Body&& body) {
+    for_shares(count, on_one, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) body(k);
+    });
+}
+
 /// The largest of `floor` and all value(begin, end) over shares.
 template <class Value>
 double max_of_shares(std::size_t count, bool on_one, double floor, Value&& value) {
@@ -65,26 +73,21 @@ double max_of_shares(std::size_t count, bool on_one, double floor, Value&& value
 /// If a call throws, others may be left out, and the loop throws that once no thread is at work any more.
 template <class Body>
 void parallel_for(std::size_t count, Body&& body) {
-    parallel::for_shares(count, count <= parallel::serial_limit, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) body(k);
-    });
+    parallel::for_each(count, count <= parallel::serial_limit, body);
 }
 
 /// Calls body(part) for every part in [0, count), each of which is worth a thread of its own.
 template <class Body>
 void parallel_for_parts(std::size_t count, Body&& body) {
-    parallel::for_shares(count, count <= 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t part = begin; part < end; ++part) body(part);
-    });
+    parallel::for_each(count, count <= 1, body);
 }
 
 /// Calls body(block, begin, end) for consecutive blocks of `block_size` indices that cover [0, count).
 template <class Body>
 void parallel_for_blocks(std::size_t count, std::size_t block_size, Body&& body) {
     const std::size_t blocks = (count + block_size - 1) / block_size;
-    parallel::for_shares(blocks, count <= parallel::serial_limit, [&](std::size_t first, std::size_t last) {
-        for (std::size_t block = first; block < last; ++block)
-            body(block, block * block_size, std::min((block + 1) * block_size, count));
+    parallel::for_each(blocks, count <= parallel::serial_limit, [&](std::size_t block) {
+        body(block, block * block_size, std::min((block + 1) * block_size, count));
     });
 }
 
@@ -115,13 +118,10 @@ double parallel_max(std::size_t count, double floor, Value&& value) {
                                    });
 }
 
-/// The largest of 0 and all value(begin, end) over parts of [0, count).
+/// The largest of 0 and all value(begin, end) over parts of [0, count), some of which may be empty.
 template <class Value>
 double parallel_max_of_parts(std::size_t count, Value&& value) {
-    return parallel::max_of_shares(count, count <= parallel::serial_limit, 0.0,
-                                   [&](std::size_t begin, std::size_t end) {
-                                       return begin == end ? 0.0 : static_cast<double>(value(begin, end));
-                                   });
+    return parallel::max_of_shares(count, count <= parallel::serial_limit, 0.0, value);
 }
 
 }  // namespace jostle

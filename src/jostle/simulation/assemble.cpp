@@ -1,11 +1,8 @@
 #include "jostle/simulation/assemble.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
 #include <unordered_map>
 
 #include "jostle/error/input_error.hpp"
@@ -13,32 +10,10 @@
 #include "jostle/mobility/drag_mobility.hpp"
 #include "jostle/motion/brownian_motion.hpp"
 #include "jostle/motion/self_propulsion.hpp"
-#include "jostle/simulation/validate_scene.hpp"
+#include "jostle/simulation/scene_motion.hpp"
+#include "jostle/simulation/step_limits.hpp"
 
 namespace jostle {
-
-namespace {
-
-/// Of the mean time between tumbles, with tumble_time = "auto": as bacteria do (Berg and Brown 1972).
-constexpr double automatic_tumble_share = 0.1;
-/// A tumble that turns the ends of a rod by more than this in a step (in D) could carry them through others.
-constexpr double farthest_turn = 0.25;
-/// A rod that swims farther than this in a step (in D) could pass through others.
-constexpr double farthest_swim = 0.5;
-/// Persistence times after which a free swimmer has forgotten where it swam: exp(-5) = 0.7 %.
-constexpr double automatic_lag = 5.0;
-
-[[noreturn]] void refuse_swimmers(const char* key, double value, std::string problem, std::string allowed) {
-    throw InputError({.key = key,
-                      .value = fmt::format("{:.4g}", value),
-                      .problem = std::move(problem),
-                      .allowed = std::move(allowed),
-                      .suggestion = std::string("Use a shorter time.step or slower ") +
-                                    (std::string_view(key).starts_with("motion.tumble") ? "tumbles" : "swimmers"),
-                      .place = {}});
-}
-
-}  // namespace
 
 std::unique_ptr<Mobility> make_mobility(const Scene& scene, const Rods& rods) {
     const bool slender = scene.mobility.model == MobilityModel::slender_body;
@@ -51,19 +26,6 @@ std::unique_ptr<Mobility> make_mobility(const Scene& scene, const Rods& rods) {
     return mobility;
 }
 
-double thermal_energy(const Scene& scene) {
-    return scene.motion.brownian ? scene.fluid.kT : 0.0;
-}
-
-double fastest_diffusion(double kT, const Mobility& mobility, std::size_t rod_count) {
-    double fastest = 0.0;
-    for (std::size_t i = 0; i < rod_count; ++i) {
-        const RodMobility rod = mobility.of_rod(i);
-        fastest = std::max(fastest, kT * (rod.parallel + 2.0 * rod.perpendicular) / 3.0);
-    }
-    return fastest;
-}
-
 double time_step(const Scene& scene, const Mobility& mobility, const Rods& rods) {
     double step = 0.0;
     if (scene.time.step) {
@@ -74,57 +36,6 @@ double time_step(const Scene& scene, const Mobility& mobility, const Rods& rods)
     }
     require_short_growth(scene, step);
     return step;
-}
-
-Swimming swimming_of(const Scene& scene) {
-    const Scene::MotionTable& motion = scene.motion;
-    Swimming swimming = {motion.self_propulsion, motion.self_propulsion_deviation, motion.tumble_rate, 0.0,
-                         motion.reversal_rate};
-    if (motion.tumble_rate > 0.0)
-        swimming.tumble_time = motion.tumble_time.value_or(automatic_tumble_share / motion.tumble_rate);
-    return swimming;
-}
-
-void require_slow_swimmers(const Scene& scene, const Rods& rods, double time_step) {
-    const Swimming swimming = swimming_of(scene);
-    if (swimming.speed == 0.0) return;
-    const std::vector<double> speed = SelfPropulsion(swimming).speeds(rods, scene.seed);
-    for (std::size_t i = 0; i < rods.size(); ++i) {
-        const double most = farthest_swim * rods.diameter[i] / time_step;
-        if (std::fabs(speed[i]) > most)
-            refuse_swimmers("motion.self_propulsion", speed[i],
-                            fmt::format("takes a rod through others in a single step of {:.4g}", time_step),
-                            fmt::format("speeds up to {:.4g}, half a diameter in a step", most));
-    }
-    if (swimming.tumble_rate == 0.0) return;
-    if (swimming.tumble_rate * time_step > 1.0)
-        refuse_swimmers("motion.tumble_rate", swimming.tumble_rate, "is more than one tumble in a time step",
-                        fmt::format("at most {:.4g}", 1.0 / time_step));
-    const double grown = scene.growth.rate > 0.0 ? scene.growth.division_length : 0.0;
-    const auto steps = static_cast<double>(Tumbles(swimming.tumble_rate, swimming.tumble_time).steps(time_step));
-    for (std::size_t i = 0; i < rods.size(); ++i) {
-        const double longest = std::max(rods.length[i], grown);
-        const double fewest = std::numbers::pi * 0.5 * longest / (farthest_turn * rods.diameter[i]);
-        if (steps < fewest)
-            refuse_swimmers("motion.tumble_time", swimming.tumble_time,
-                            "is too short: the ends of a rod would pass through others in a single step",
-                            fmt::format("at least {:.4g}", std::ceil(fewest) * time_step));
-    }
-}
-
-double persistence_time(const Scene& scene, const Mobility& mobility, std::size_t rod_count) {
-    const double kT = thermal_energy(scene);
-    const double turns = scene.motion.tumble_rate + 2.0 * scene.motion.reversal_rate;
-    double longest = 0.0;
-    for (std::size_t i = 0; i < rod_count; ++i)
-        longest = std::max(longest, 1.0 / (2.0 * kT * mobility.of_rod(i).rotational + turns));
-    return longest;
-}
-
-double active_stress_lag(const Scene& scene, const Mobility& mobility, std::size_t rod_count) {
-    if (scene.output.active_stress_lag) return *scene.output.active_stress_lag;
-    const double persistence = persistence_time(scene, mobility, rod_count);
-    return std::isfinite(persistence) ? automatic_lag * persistence : 0.1 * scene.time.production;
 }
 
 namespace {
@@ -167,17 +78,6 @@ std::optional<StressField> make_field(const Scene& scene, const Box& box) {
     if (scene.output.field_every == 0) return std::nullopt;
     const double longest = scene.growth.rate > 0.0 ? scene.growth.division_length : scene.rods.length;
     return StressField(box, scene.output.field_spacing.value_or(longest + scene.rods.diameter));
-}
-
-void require_slow_springs(const Scene& scene, double relaxation, double time_step) {
-    if (relaxation <= 1.0) return;
-    throw InputError({.key = "springs.file",
-                      .value = scene.springs.file,
-                      .problem = fmt::format("springs are too stiff for the time step: in one of {:.4g} they may lose "
-                                             "{:.4g} times their stretch (2 dt times stiffness times mobility)",
-                                             time_step, relaxation),
-                      .allowed = fmt::format("at most 1, with a step of at most {:.4g}", time_step / relaxation),
-                      .suggestion = "Use a shorter time.step or softer springs"});
 }
 
 Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock, std::vector<Spring> springs,

@@ -3,19 +3,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
-#include <string_view>
-#include <type_traits>
 
-#include "jostle/error/input_error.hpp"
 #include "jostle/motion/tumbles.hpp"
-#include "jostle/parallel/parallel_for.hpp"
 #include "jostle/rods/rods.hpp"
-#include "jostle/simulation/assemble.hpp"
+#include "jostle/simulation/refusal.hpp"
 #include "jostle/simulation/rod_size.hpp"
-#include "jostle/simulation/scene_keys.hpp"
+#include "jostle/simulation/scene_box.hpp"
+#include "jostle/simulation/scene_ranges.hpp"
+#include "jostle/simulation/step_limits.hpp"
+#include "jostle/simulation/unused_keys.hpp"
 
 namespace jostle {
 
@@ -26,119 +23,6 @@ const double slender_limit = std::exp(0.5) / 2.0;
 /// Of the standard deviation of lengths and diameters to their mean: the smallest is a quarter of it.
 constexpr double largest_deviation = 0.25;
 constexpr double largest_step_number = 1e15;  // counts of steps stay exact as double
-
-[[noreturn]] void refuse(std::string key, std::string value, std::string problem, std::string allowed,
-                         std::string suggestion) {
-    throw InputError(
-        {std::move(key), std::move(value), std::move(problem), std::move(allowed), std::move(suggestion), {}});
-}
-
-std::string text(double value) {
-    return fmt::format("{}", value);
-}
-std::string text(const Vec3& value) {
-    return fmt::format("[{}, {}, {}]", value.x, value.y, value.z);
-}
-std::string rounded(double value) {
-    return fmt::format("{:.4g}", value);
-}
-
-/// The range in words; the bounds that only keep products finite are named when the value breaks them.
-std::string describe(const Range& range, double value) {
-    const bool finite = std::isfinite(value);
-    std::string words;
-    if (range.lower == Range::smallest && !(value > 0.0 && value < range.lower))
-        words = "greater than 0";
-    else if (range.lower > -Range::largest || (finite && value < range.lower))
-        words = fmt::format("{} {}", range.lower_included ? "at least" : "greater than", range.lower);
-    if (range.upper < Range::largest || (finite && value > range.upper))
-        words += fmt::format("{}{} {}", words.empty() ? "" : " and ", range.upper_included ? "at most" : "less than",
-                             range.upper);
-    return words.empty() ? "a finite number" : words;
-}
-
-/// Range check of one key, by the type of its member.
-struct RangeCheck {
-    std::string key;
-
-    void check(double value, const Range& range) const {
-        if (range.contains(value)) return;
-        const char* problem = "is outside the allowed range";
-        if (!std::isfinite(value))
-            problem = "is not a finite number";
-        else if (value < 0.0 && range.lower >= 0.0)
-            problem = "is negative";
-        else if (value == 0.0)
-            problem = "is zero";
-        refuse(key, text(value), problem, describe(range, value), "");
-    }
-
-    void operator()(double value, const Quantity& quantity) const { check(value, quantity.range); }
-    void operator()(const std::optional<double>& value, const Quantity& quantity) const {
-        if (value) check(*value, quantity.range);
-    }
-    void operator()(const Vec3& value, const Quantity& quantity) const {
-        for (int k = 0; k < 3; ++k) check(value[k], quantity.range);
-    }
-    void operator()(const std::optional<Vec3>& value, const Quantity& quantity) const {
-        if (value) (*this)(*value, quantity);
-    }
-    void operator()(std::uint64_t value, const Count& count) const {
-        if (value >= count.lower && value <= count.upper) return;
-        refuse(key, std::to_string(value), "is outside the allowed range",
-               value < count.lower ? fmt::format("at least {}", count.lower) : fmt::format("at most {}", count.upper),
-               "");
-    }
-    template <class Member>
-    void operator()(const Member&, const Plain&) const {}
-};
-
-void check_ranges(const Scene& scene) {
-    const std::vector<UnusedKey> unused = unused_keys(scene);
-    for_each_key(scene, [&](std::string_view table, std::string_view name, const auto& member, const auto& spec) {
-        const std::string key = full_key(table, name);
-        if (std::any_of(unused.begin(), unused.end(), [&](const UnusedKey& entry) { return entry.key == key; })) return;
-        RangeCheck{key}(member, spec);
-    });
-}
-
-struct MotionValue {
-    const char* key;
-    double given;  ///< 0 by default
-};
-
-/// The keys of swimmers, which mean nothing where nothing swims.
-std::array<MotionValue, 5> motion_values(const Scene& scene) {
-    const Scene::MotionTable& motion = scene.motion;
-    return {{{"motion.self_propulsion_deviation", motion.self_propulsion_deviation},
-             {"motion.tumble_rate", motion.tumble_rate},
-             {"motion.tumble_time", motion.tumble_time.value_or(0.0)},
-             {"motion.reversal_rate", motion.reversal_rate},
-             {"output.active_stress_lag", scene.output.active_stress_lag.value_or(0.0)}}};
-}
-
-/// Values given for keys that mean nothing here; the reader sees also those that equal the default.
-void check_unused(const Scene& scene) {
-    const Scene defaults;
-    for (const UnusedKey& unused : unused_keys(scene)) {
-        std::string value;
-        if (unused.key == "rods.file") value = scene.rods.file;
-        if (unused.key == "rods.axis" && !(scene.rods.axis == defaults.rods.axis)) value = text(scene.rods.axis);
-        if (unused.key == "rods.length_deviation" && scene.rods.length_deviation != 0.0)
-            value = text(scene.rods.length_deviation);
-        if (unused.key == "rods.diameter_deviation" && scene.rods.diameter_deviation != 0.0)
-            value = text(scene.rods.diameter_deviation);
-        if (unused.key == "output.field_spacing" && scene.output.field_spacing)
-            value = text(*scene.output.field_spacing);
-        if (unused.key == "output.stress_per_rod" && scene.output.stress_per_rod) value = "true";
-        if (unused.key == "contact.energy" && scene.contact.energy) value = text(*scene.contact.energy);
-        if (unused.key == "contact.range" && scene.contact.range) value = text(*scene.contact.range);
-        for (const auto& [key, given] : motion_values(scene))
-            if (unused.key == key && given != 0.0) value = text(given);
-        if (unused.key == "box.shape" && !(scene.box.shape == defaults.box.shape)) value = text(scene.box.shape);
-        if (!value.empty()) refuse(unused.key, value, unused.reason, "", unused.suggestion);
-    }
-}
 
 void check_start(const Scene& scene) {
     if (scene.rods.start == StartKind::file && scene.rods.file.empty())
@@ -303,8 +187,8 @@ void check_time(const Scene& scene) {
 }  // namespace
 
 void validate(const Scene& scene) {
-    check_unused(scene);
-    check_ranges(scene);
+    refuse_unused_keys(scene);
+    require_ranges(scene);
     check_start(scene);
     check_box_given_once(scene);
     if (scene.rods.start != StartKind::file) {
@@ -321,114 +205,23 @@ void validate(const Scene& scene) {
     check_time(scene);
 }
 
-void require_short_growth(const Scene& scene, double time_step) {
-    const double longest = 0.1 * scene.rods.diameter, of_step = scene.growth.rate * time_step;
-    if (of_step > longest)
-        refuse("growth.rate", text(scene.growth.rate),
-               fmt::format("lengthens cells by {} in a step of {}: contacts cannot follow", rounded(of_step),
-                           rounded(time_step)),
-               fmt::format("at most {}, a tenth of the diameter in a step", rounded(longest / time_step)),
-               "Use a shorter time.step");
-}
-
 void validate_box(const Scene& scene, double rods_volume, double largest_diameter) {
     const Vec3 edges = box_edges(scene, rods_volume);
     const bool given = scene.box.edges.has_value();
     const std::string key = given ? "box.edges" : "box.volume_fraction";
-    const std::string value = text(given ? 0.0 : *scene.box.volume_fraction);
+    const std::string value = given ? text(edges) : text(*scene.box.volume_fraction);
     for (int k = 0; k < 3; ++k) {
         if (edges[k] >= largest_diameter) continue;
-        refuse(key, given ? text(edges) : value,
+        refuse(key, value,
                fmt::format("makes the box thinner than a rod's diameter: edge {} is {}", "xyz"[k], rounded(edges[k])),
                fmt::format("edges of at least {}", largest_diameter),
                given ? "Enlarge that edge" : "Use more rods, a lower volume fraction or a box.shape nearer to a cube");
     }
     const double fraction = volume_fraction(scene, rods_volume);
     if (!(fraction < 1.0))
-        refuse(key, given ? text(edges) : value,
+        refuse(key, value,
                fmt::format("leaves the rods no room: their volume is {} times that of the box", rounded(fraction)),
                "a volume fraction less than 1", "Enlarge the box or use fewer rods");
-}
-
-double rods_volume(const Scene& scene) {
-    if (rods_are_alike(scene))
-        return static_cast<double>(scene.rods.count) * rod_volume(scene.rods.length, scene.rods.diameter);
-    const std::vector<RodSize> sizes = rod_sizes(scene);
-    return parallel_sum<double>(sizes.size(),
-                                [&](std::size_t id) { return rod_volume(sizes[id].length, sizes[id].diameter); });
-}
-
-Vec3 box_edges(const Scene& scene, double rods_volume) {
-    if (scene.box.edges) return *scene.box.edges;
-    const Vec3& shape = scene.box.shape;
-    const double volume = rods_volume / scene.box.volume_fraction.value();
-    return std::cbrt(volume / (shape.x * shape.y * shape.z)) * shape;
-}
-
-double volume_fraction(const Scene& scene, double rods_volume) {
-    if (scene.box.volume_fraction) return *scene.box.volume_fraction;
-    const Vec3& edges = scene.box.edges.value();
-    return rods_volume / (edges.x * edges.y * edges.z);
-}
-
-Vec3 box_edges(const Scene& scene) {
-    return box_edges(scene, rods_volume(scene));
-}
-double volume_fraction(const Scene& scene) {
-    return volume_fraction(scene, rods_volume(scene));
-}
-
-double close_packing(double aspect_ratio) {
-    return rod_volume(aspect_ratio, 1.0) * 2.0 / (std::numbers::sqrt2 + aspect_ratio * std::numbers::sqrt3);
-}
-
-double random_start_limit(double aspect_ratio) {
-    return std::min(0.60 / (1.0 + aspect_ratio / 15.0), 4.5 / std::max(aspect_ratio, 1.0));
-}
-
-std::vector<UnusedKey> unused_keys(const Scene& scene) {
-    std::vector<UnusedKey> unused;
-    const StartKind start = scene.rods.start;
-    const std::string with = fmt::format("is not used with rods.start = \"{}\"", word_of(start));
-    if (scene.box.edges)
-        unused.push_back({"box.shape", "is not used with box.edges, which give the shape", "Remove shape or edges"});
-    if (start == StartKind::file)
-        for (const char* key : {"rods.length_deviation", "rods.diameter_deviation"})
-            unused.push_back(
-                {key, with + ": the file tells", "Give the file columns length and diameter, or remove it"});
-    if (start != StartKind::file) unused.push_back({"rods.file", with, "Set start = \"file\", or remove file"});
-    if (start != StartKind::aligned && start != StartKind::lattice)
-        unused.push_back({"rods.axis", with, "Set start = \"aligned\", or remove axis"});
-    if (scene.motion.self_propulsion == 0.0)
-        for (const MotionValue& value : motion_values(scene))
-            unused.push_back({value.key, "is not used with motion.self_propulsion = 0: nothing swims",
-                              "Set self_propulsion, or remove it"});
-    else if (scene.motion.tumble_rate == 0.0)
-        unused.push_back({"motion.tumble_time", "is not used with motion.tumble_rate = 0",
-                          "Set tumble_rate, or remove tumble_time"});
-    const bool soft = scene.contact.model == ContactModel::wca;
-    const std::string with_model = fmt::format("is not used with contact.model = \"{}\"", word_of(scene.contact.model));
-    if (!soft) unused.push_back({"contact.energy", with_model, "Set model = \"wca\", or remove energy"});
-    if (soft)
-        for (const char* key : {"contact.brownian_correction", "contact.range", "solver.method", "solver.warm_start",
-                                "solver.step_rule", "solver.residual", "solver.tolerance", "solver.max_iterations"})
-            unused.push_back({key, with_model + ": there is no contact problem", "Remove it"});
-    if (scene.growth.rate == 0.0)
-        for (const char* key :
-             {"growth.rate_deviation", "growth.division", "growth.division_length", "growth.division_deviation",
-              "growth.daughters", "growth.stall_force", "growth.death_rate", "growth.division_every"})
-            unused.push_back({key, "is not used without growth.rate", "Add rate under [growth], or remove it"});
-    if (scene.output.trajectory_every == 0)
-        unused.push_back({"output.stress_per_rod", "is not used without output.trajectory_every: there are no frames",
-                          "Set trajectory_every, or remove it"});
-    if (scene.output.field_every == 0)
-        unused.push_back({"output.field_spacing", "is not used without output.field_every: there is no field",
-                          "Set field_every, or remove it"});
-    if (scene.springs.file.empty())
-        unused.push_back({"springs.file", "names no file", "Name a CSV file of springs, or remove [springs]"});
-    if (start == StartKind::file && scene.rods.count == 0)
-        unused.push_back({"rods.count", with + ": the file tells", "Remove count"});
-    return unused;
 }
 
 }  // namespace jostle

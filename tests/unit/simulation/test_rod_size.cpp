@@ -6,6 +6,7 @@
 #include "jostle/rods/rods.hpp"
 #include "jostle/simulation/largest_overlap.hpp"
 #include "jostle/simulation/rod_size.hpp"
+#include "jostle/simulation/scene_box.hpp"
 #include "jostle/simulation/start.hpp"
 #include "jostle/simulation/validate_scene.hpp"
 

@@ -11,7 +11,9 @@
 #include "jostle/error/input_error.hpp"
 #include "jostle/rods/space_filling_order.hpp"
 #include "jostle/simulation/assemble.hpp"
+#include "jostle/simulation/scene_motion.hpp"
 #include "jostle/simulation/start.hpp"
+#include "jostle/simulation/step_limits.hpp"
 
 using namespace jostle;
 

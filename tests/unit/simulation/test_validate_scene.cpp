@@ -3,11 +3,9 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 #include "jostle/error/input_error.hpp"
-#include "jostle/rods/rods.hpp"
 #include "jostle/simulation/scene_keys.hpp"
 #include "jostle/simulation/validate_scene.hpp"
 
@@ -193,13 +191,7 @@ TEST_CASE("slender body: refused up to L/D = sqrt(e)/2") {
     CHECK(refused_key(with(0.0)) == "mobility.model");
 }
 
-TEST_CASE("close packing: spheres, long rods, and a box of known volume") {
-    CHECK(close_packing(0.0) == doctest::Approx(std::numbers::pi / std::sqrt(18.0)).epsilon(1e-14));
-    CHECK(close_packing(1e8) == doctest::Approx(std::numbers::pi / std::sqrt(12.0)).epsilon(1e-7));
-    // hexagonal layers of standing rods: cylinder parts of height L, caps as in close-packed spheres. Cell of 1 rod:
-    // area sqrt(3)/2 times height L + sqrt(2/3)
-    CHECK(close_packing(5.0) ==
-          doctest::Approx(rod_volume(5.0, 1.0) / (std::sqrt(0.75) * (5.0 + std::sqrt(2.0 / 3.0)))).epsilon(1e-14));
+TEST_CASE("rods that cannot be packed, or not at random") {
     const auto dense = [](StartKind start, double fraction, double length) {
         return refused_key([=](Scene& s) {
             s.rods.start = start;
@@ -245,20 +237,6 @@ TEST_CASE("a box thinner than a rod's diameter") {
               s.box.volume_fraction.reset();
               s.box.edges = Vec3{100, 100, 1.0};
           }) == "");
-}
-
-TEST_CASE("edges and volume fraction follow from each other") {
-    Scene scene = good_scene();
-    scene.rods.diameter = 2.0;
-    scene.box.shape = {4, 1, 1};
-    const Vec3 edges = box_edges(scene);
-    CHECK(edges.x == doctest::Approx(4.0 * edges.y).epsilon(1e-14));
-    CHECK(edges.y == doctest::Approx(edges.z).epsilon(1e-14));
-    CHECK(rods_volume(scene) == doctest::Approx(100.0 * std::numbers::pi * (5.0 + 8.0 / 6.0)).epsilon(1e-14));
-    CHECK(edges.x * edges.y * edges.z == doctest::Approx(rods_volume(scene) / 0.2).epsilon(1e-13));
-    scene.box.volume_fraction.reset();
-    scene.box.edges = edges;
-    CHECK(volume_fraction(scene) == doctest::Approx(0.2).epsilon(1e-13));
 }
 
 TEST_CASE("the box of rods from a file is checked once their volume is known") {

@@ -1,0 +1,75 @@
+#include "jostle/simulation/step_limits.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "jostle/motion/self_propulsion.hpp"
+#include "jostle/simulation/refusal.hpp"
+#include "jostle/simulation/scene_motion.hpp"
+
+namespace jostle {
+
+namespace {
+
+/// A tumble that turns the ends of a rod by more than this in a step (in D) could carry them through others.
+constexpr double farthest_turn = 0.25;
+/// A rod that swims farther than this in a step (in D) could pass through others.
+constexpr double farthest_swim = 0.5;
+
+constexpr const char* slower_tumbles = "Use a shorter time.step or slower tumbles";
+
+}  // namespace
+
+void require_short_growth(const Scene& scene, double time_step) {
+    const double longest = 0.1 * scene.rods.diameter, of_step = scene.growth.rate * time_step;
+    if (of_step > longest)
+        refuse("growth.rate", text(scene.growth.rate),
+               fmt::format("lengthens cells by {} in a step of {}: contacts cannot follow", rounded(of_step),
+                           rounded(time_step)),
+               fmt::format("at most {}, a tenth of the diameter in a step", rounded(longest / time_step)),
+               "Use a shorter time.step");
+}
+
+void require_slow_swimmers(const Scene& scene, const Rods& rods, double time_step) {
+    const Swimming swimming = swimming_of(scene);
+    if (swimming.speed == 0.0) return;
+    const std::vector<double> speed = SelfPropulsion(swimming).speeds(rods, scene.seed);
+    for (std::size_t i = 0; i < rods.size(); ++i) {
+        const double most = farthest_swim * rods.diameter[i] / time_step;
+        if (std::fabs(speed[i]) > most)
+            refuse("motion.self_propulsion", rounded(speed[i]),
+                   fmt::format("takes a rod through others in a single step of {}", rounded(time_step)),
+                   fmt::format("speeds up to {}, half a diameter in a step", rounded(most)),
+                   "Use a shorter time.step or slower swimmers");
+    }
+    if (swimming.tumble_rate == 0.0) return;
+    if (swimming.tumble_rate * time_step > 1.0)
+        refuse("motion.tumble_rate", rounded(swimming.tumble_rate), "is more than one tumble in a time step",
+               fmt::format("at most {}", rounded(1.0 / time_step)), slower_tumbles);
+    const double grown = scene.growth.rate > 0.0 ? scene.growth.division_length : 0.0;
+    const auto steps = static_cast<double>(Tumbles(swimming.tumble_rate, swimming.tumble_time).steps(time_step));
+    for (std::size_t i = 0; i < rods.size(); ++i) {
+        const double longest = std::max(rods.length[i], grown);
+        const double fewest = std::numbers::pi * 0.5 * longest / (farthest_turn * rods.diameter[i]);
+        if (steps < fewest)
+            refuse("motion.tumble_time", rounded(swimming.tumble_time),
+                   "is too short: the ends of a rod would pass through others in a single step",
+                   fmt::format("at least {}", rounded(std::ceil(fewest) * time_step)), slower_tumbles);
+    }
+}
+
+void require_slow_springs(const Scene& scene, double relaxation, double time_step) {
+    if (relaxation <= 1.0) return;
+    refuse(
+        "springs.file", scene.springs.file,
+        fmt::format("springs are too stiff for the time step: in one of {} they may lose {} times their stretch (2 dt "
+                    "times stiffness times mobility)",
+                    rounded(time_step), rounded(relaxation)),
+        fmt::format("at most 1, with a step of at most {}", rounded(time_step / relaxation)),
+        "Use a shorter time.step or softer springs");
+}
+
+}  // namespace jostle
