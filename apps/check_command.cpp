@@ -16,6 +16,7 @@
 #include "jostle/simulation/rod_size.hpp"
 #include "jostle/simulation/scene_box.hpp"
 #include "jostle/simulation/scene_motion.hpp"
+#include "jostle/simulation/step_limits.hpp"
 
 using namespace jostle;
 
@@ -51,8 +52,8 @@ void print(const char* name, const std::string& value) {
     std::printf("%-28s %s\n", name, value.c_str());
 }
 
-std::string with_unit(double value, UnitSystem units, Dimension dimension) {
-    return fmt::format("{:.6g} {}", value, unit_of(units, dimension));
+std::string with_unit(double value, const Scene& scene, Dimension dimension) {
+    return fmt::format("{:.6g} {}", value, unit_of(scene, dimension));
 }
 
 /// L/D, or the range of it.
@@ -68,33 +69,34 @@ std::string aspect_ratios(const Rods& rods) {
 
 void print_swimming(const Scene& scene, const Mobility& mobility, const Rods& rods, double dt) {
     const Swimming swimming = swimming_of(scene);
-    const UnitSystem units = scene.units.system;
     const double persistence = persistence_time(scene, mobility, rods.size());
     print("persistence time, free",
-          std::isfinite(persistence) ? with_unit(persistence, units, dimension::time) : "without end");
+          std::isfinite(persistence) ? with_unit(persistence, scene, dimension::time) : "without end");
     if (swimming.tumble_rate > 0.0) {
         const double turn =
             std::numbers::pi / static_cast<double>(Tumbles(swimming.tumble_rate, swimming.tumble_time).steps(dt));
-        print("tumble time", with_unit(swimming.tumble_time, units, dimension::time));
+        print("tumble time", with_unit(swimming.tumble_time, scene, dimension::time));
         print("tumble turns ends per step",
               fmt::format("{:.3g} D at most", 0.5 * turn * rods.length[0] / rods.diameter[0]));
     }
-    print("active stress lag", with_unit(active_stress_lag(scene, mobility, rods.size()), units, dimension::time));
+    const double lag = active_stress_lag(scene, mobility, rods.size());
+    const bool too_short = lag > scene.time.equilibration.value_or(0.0) + scene.time.production;
+    print("active stress lag", with_unit(lag, scene, dimension::time) +
+                                   (too_short ? ": the run may be too short to measure the active stress" : ""));
 }
 
 void print_motion(const Scene& scene, const Mobility& mobility, const Rods& rods, double dt) {
     const double kT = thermal_energy(scene);
-    const UnitSystem units = scene.units.system;
     const RodMobility rod = mobility.of_rod(0);
     const double diameter = *std::min_element(rods.diameter.begin(), rods.diameter.end());
     const double rotation = kT * rod.rotational;
     if (kT > 0.0) {
         const double fastest = fastest_diffusion(kT, mobility, rods.size());
         print("D_parallel, D_perpendicular",
-              fmt::format("{:.6g}, {:.6g} {}", kT * rod.parallel, kT * rod.perpendicular, unit_of(units, {2, -1, 0})));
-        print("D_t of the fastest rod", with_unit(fastest, units, {2, -1, 0}));
-        print("D_R, 1/D_R", fmt::format("{:.6g} {}, {:.6g} {}", rotation, unit_of(units, dimension::rate),
-                                        1.0 / rotation, unit_of(units, dimension::time)));
+              fmt::format("{:.6g}, {:.6g} {}", kT * rod.parallel, kT * rod.perpendicular, unit_of(scene, {2, -1, 0})));
+        print("D_t of the fastest rod", with_unit(fastest, scene, {2, -1, 0}));
+        print("D_R, 1/D_R", fmt::format("{:.6g} {}, {:.6g} {}", rotation, unit_of(scene, dimension::rate),
+                                        1.0 / rotation, unit_of(scene, dimension::time)));
         print("dt D_R", fmt::format("{:.3g}", dt * rotation));
         print("rms step / D", fmt::format("{:.4g}", std::sqrt(2.0 * fastest * dt) / diameter));
     }
@@ -120,7 +122,7 @@ SpringsOfScene springs_of(const Scene& scene, const std::string& scene_path, con
     const auto springs =
         read_springs(springs_path(scene, scene_path), static_cast<std::uint64_t>(population.count), length_of);
     const auto mobility_of = [&](std::uint64_t id) { return mobility.of_rod(row_of(id)); };
-    return {springs.size(), slow_springs_in_file(scene, scene_path, springs, mobility_of, dt)};
+    return {springs.size(), require_slow_springs(scene, springs, mobility_of, dt)};
 }
 
 void print_springs(const SpringsOfScene& springs) {
@@ -138,11 +140,12 @@ PopulationGrowth population_growth(const Scene& scene, double time) {
     if (growth.rate == 0.0) return {};
     const double doubling = 0.5 * (growth.division_length + scene.rods.diameter) / growth.rate;
     const double exponent = (std::numbers::ln2 / doubling - growth.death_rate) * time;
-    print("doubling time", with_unit(doubling, scene.units.system, dimension::time));
+    print("doubling time", with_unit(doubling, scene, dimension::time));
     return {std::exp(exponent), exponent == 0.0 ? 1.0 : std::expm1(exponent) / exponent};
 }
 
-void print_cost(const Scene& scene, const Population& population, double phi, double dt) {
+void print_cost(const Scene& scene, const Population& population, const Box& box, double dt) {
+    const double phi = population.volume / box.volume();
     // In whole rows of the series, as they are run.
     const auto every = static_cast<double>(scene.output.series_every);
     const auto in_rows = [&](double time) { return every * std::ceil(time / (dt * every) - 1e-9); };
@@ -150,7 +153,13 @@ void print_cost(const Scene& scene, const Population& population, double phi, do
                          std::max(every, in_rows(scene.time.production));
     const PopulationGrowth growth = population_growth(scene, steps * dt);
     const double count = population.count * growth.end;
-    if (scene.growth.rate > 0.0) print("N in the end, about", fmt::format("{:.3g}", count));
+    if (scene.growth.rate > 0.0) {
+        print("N in the end, about", fmt::format("{:.3g}", count));
+        const double filled = phi * growth.end;
+        if (box.is_periodic())
+            print("phi in the end, about",
+                  fmt::format("{:.3g}{}", filled, filled < 0.6 ? "" : ": cells have no room to grow so many"));
+    }
     const double rows = steps / every;
     const double frames =
         scene.output.trajectory_every > 0 ? steps / static_cast<double>(scene.output.trajectory_every) : 0.0;
@@ -162,10 +171,7 @@ void print_cost(const Scene& scene, const Population& population, double phi, do
           fmt::format("{:.3g} s", steps * population.count * growth.mean * seconds_per_rod_and_step(phi)));
 }
 
-}  // namespace
-
-ExitCode check_command(const std::string& scene_path) {
-    const Scene scene = read_scene(scene_path);
+ExitCode check(const Scene& scene, const std::string& scene_path) {
     const auto from_file = rods_from_file(scene, scene_path);
     const Population population = population_of(scene, from_file);
     const Box box = box_of(scene, from_file);
@@ -173,19 +179,22 @@ ExitCode check_command(const std::string& scene_path) {
     const double phi = population.volume / box.volume();
     const auto mobility = make_mobility(scene, population.rods);
     const double dt = time_step(scene, *mobility, population.rods);
-    require_slow_swimmers_in_file(scene, scene_path, population.rods);
+    require_countable_steps(scene, dt);
+    require_slow_swimmers(scene, population.rods, dt);
     const SpringsOfScene springs = springs_of(scene, scene_path, population, *mobility, dt);
-    const auto field = field_in_file(scene, scene_path, box);
-    const UnitSystem units = scene.units.system;
+    const auto field = make_field(scene, box);
 
     std::printf("%s\n# what follows from it\n", to_toml(scene).c_str());
-    print("units", units == UnitSystem::micro ? "um, s, pN (stress in pN um-2 = Pa)" : "D, kT, viscosity");
+    print("units", scene.units.system == UnitSystem::micro
+                       ? "um, s, pN (stress in pN um-2 = Pa)"
+                       : fmt::format("length {}, energy {}, time {}", unit_of(scene, dimension::length),
+                                     unit_of(scene, dimension::energy), unit_of(scene, dimension::time)));
     print("N", fmt::format("{:.0f}", population.count));
     print("L/D", aspect_ratios(population.rods));
     print("phi", fmt::format("{:.6g}", phi));
     print("box", fmt::format("{:.6g} x {:.6g} x {:.6g} {}", box.edges.x, box.edges.y, box.edges.z,
-                             unit_of(units, dimension::length)));
-    print("time step", with_unit(dt, units, dimension::time));
+                             unit_of(scene, dimension::length)));
+    print("time step", with_unit(dt, scene, dimension::time));
     print_motion(scene, *mobility, population.rods, dt);
     if (scene.motion.self_propulsion != 0.0) print_swimming(scene, *mobility, population.rods, dt);
     if (springs.count > 0) print_springs(springs);
@@ -193,6 +202,13 @@ ExitCode check_command(const std::string& scene_path) {
         const auto& [x, y, z] = field->cells();
         print("stress field", fmt::format("{} x {} x {} cells", x, y, z));
     }
-    print_cost(scene, population, phi, dt);
+    print_cost(scene, population, box, dt);
     return ExitCode::done;
+}
+
+}  // namespace
+
+ExitCode check_command(const std::string& scene_path) {
+    const Scene scene = read_scene(scene_path);
+    return in_scene_file(scene_path, [&] { return check(scene, scene_path); });
 }

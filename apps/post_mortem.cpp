@@ -1,5 +1,7 @@
 #include "post_mortem.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +13,8 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr std::size_t contacts_told = 10;
+/// Volume fraction beyond which cells that grow have no room left.
+constexpr double crowded = 0.6;
 
 /// The contacts for which `rank` is largest.
 template <class Rank>
@@ -37,16 +41,25 @@ Json worst_contacts(const Simulation& simulation, Rank&& rank) {
 
 }  // namespace
 
-std::string advice(const StepReport& report) {
+std::string advice(const StepReport& report, const Scene& scene, const Simulation& simulation) {
+    const double filled = total_volume(simulation.rods()) / simulation.box().volume();
+    if (scene.growth.rate > 0.0 && simulation.box().is_periodic() && filled > crowded)
+        return fmt::format(
+            "  cells fill {:.0f} % of the box: end the run earlier, or give them a larger box or a "
+            "growth.stall_force\n",
+            100.0 * filled);
+    const std::string shorter = scene.time.rms_step ? "time.rms_step" : "time.step";
+    if (scene.contact.model == ContactModel::wca)
+        return "  rods push through the potential: try a larger contact.energy, or a smaller " + shorter + "\n";
     switch (report.status) {
         case LcpStatus::iteration_limit:
-            return "  try a smaller time.step (or rms_step), or a larger solver.max_iterations or tolerance\n";
+            return "  try a smaller " + shorter + ", or a larger solver.max_iterations or tolerance\n";
         case LcpStatus::infeasible:
             return "  use a lower volume fraction; this one cannot be reached with this start\n";
         case LcpStatus::not_finite:
-            return "  try a much smaller time.step (or rms_step)\n";
+            return "  try a much smaller " + shorter + "\n";
         case LcpStatus::converged:
-            return "  try a smaller time.step (or rms_step)\n";
+            return "  try a smaller " + shorter + "\n";
     }
     return "";
 }

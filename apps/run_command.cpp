@@ -98,9 +98,16 @@ public:
         show_progress();
         while (!length_.is_over(files_.series())) {
             if (simulation_.rods().size() == 0) return die_out();
-            const StepReport report = simulation_.step();
+            StepReport report;
+            try {
+                report = simulation_.step();
+            } catch (const InputError& error) {  // cells have become what no mobility, or no id, is there for
+                report.step = simulation_.clock().step;
+                return give_up(report, error.what(), "");
+            }
             longest_step_ = std::max(longest_step_, std::accumulate(report.seconds.begin(), report.seconds.end(), 0.0));
-            if (const auto failure = step_failure(report, scene_, simulation_.rods())) return give_up(report, *failure);
+            if (const auto failure = step_failure(report, scene_, simulation_.rods()))
+                return give_up(report, *failure, advice(report, scene_, simulation_));
             sums_.add(report, simulation_);
             if (scene_.growth.rate > 0.0) files_.append_lineage(simulation_);
             if (simulation_.rods().size() == 0) continue;
@@ -174,17 +181,18 @@ private:
         checkpoint();
         write_trajectory();
         record_.write(simulation_, "extinct");
+        if (options_.json) std::printf("%s\n", R"({"rods": 0, "exit_reason": "extinct"})");
         std::fprintf(stderr, "jostle: all cells have died by step %llu\n",
                      static_cast<unsigned long long>(simulation_.clock().step));
         return ExitCode::done;
     }
 
-    ExitCode give_up(const StepReport& report, const std::string& failure) {
+    ExitCode give_up(const StepReport& report, const std::string& failure, const std::string& advice) {
         write_post_mortem(directory_.file("post_mortem.json"), simulation_, report, failure);
         write_trajectory();
         record_.write(simulation_, failure);
         std::fprintf(stderr, "jostle: step %llu failed: %s\n%s  details: %s\n",
-                     static_cast<unsigned long long>(report.step), failure.c_str(), advice(report).c_str(),
+                     static_cast<unsigned long long>(report.step), failure.c_str(), advice.c_str(),
                      directory_.file("post_mortem.json").c_str());
         return ExitCode::numerics;
     }
@@ -213,12 +221,11 @@ private:
         attributes.seed = scene_.seed;
         attributes.command_line = options_.command_line;
         attributes.host = host_name();
-        const UnitSystem units = scene_.units.system;
-        attributes.unit_system = units == UnitSystem::micro ? "SI" : "reduced";
-        attributes.length_unit = unit_of(units, dimension::length);
-        attributes.time_unit = unit_of(units, dimension::time);
-        attributes.stress_unit = unit_of(units, dimension::stress);
-        attributes.energy_unit = unit_of(units, dimension::energy);
+        attributes.unit_system = scene_.units.system == UnitSystem::micro ? "SI" : "reduced";
+        attributes.length_unit = unit_of(scene_, dimension::length);
+        attributes.time_unit = unit_of(scene_, dimension::time);
+        attributes.stress_unit = unit_of(scene_, dimension::stress);
+        attributes.energy_unit = unit_of(scene_, dimension::energy);
         write_h5md(directory_.file("trajectory.journal"), directory_.file("trajectory.h5"), attributes,
                    &files_.series());
     }
@@ -258,13 +265,14 @@ ExitCode start_run(const RunOptions& options, const Scene& scene, const std::str
     // The start is made before anything is touched on the disk: a scene that does not work out leaves no trace.
     Beginning beginning = beginning_of(scene, options.scene);
     Simulation simulation = assemble(scene, beginning.box, std::move(beginning.rods), {}, std::move(beginning.springs));
+    const std::string text = read_file(options.scene);  // which may lie in the folder that is moved aside
     if (options.fresh) {
         const std::string moved_to = move_aside(folder);
         if (!moved_to.empty() && !options.quiet)
             std::fprintf(stderr, "jostle: the run that was in %s is now in %s\n", folder.c_str(), moved_to.c_str());
     }
     const RunDirectory directory(folder);
-    replace_file(directory.file("scene.toml"), read_file(options.scene));
+    replace_file(directory.file("scene.toml"), text);
     replace_file(directory.file("resolved.toml"), resolved);
     const StepSums sums = first_sums(scene, simulation);
     RunFiles files(directory, scene, resolved, simulation, sums);
@@ -278,6 +286,10 @@ ExitCode resume_run(const RunOptions& options, const Scene& scene, const std::st
                          springs_path(scene, options.scene));
     const StepSums sums = StepSums::from_numbers(checkpoint.accumulators);
     RunFiles files(directory, scene, resolved, checkpoint);
+    if (checkpoint.scene != resolved) {  // another end
+        replace_file(directory.file("scene.toml"), read_file(options.scene));
+        replace_file(directory.file("resolved.toml"), resolved);
+    }
     Simulation simulation =
         assemble(scene, checkpoint.box, std::move(checkpoint.rods), {checkpoint.step, checkpoint.time},
                  std::move(checkpoint.springs), std::move(checkpoint.last_forces));

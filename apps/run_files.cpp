@@ -13,15 +13,15 @@ using namespace jostle;
 
 namespace {
 
-std::vector<SeriesColumn> contact_columns(UnitSystem units) {
-    const std::string length = unit_of(units, dimension::length);
+std::vector<SeriesColumn> contact_columns(const Scene& scene) {
+    const std::string length = unit_of(scene, dimension::length);
     return {{"step", "1", "k", "number of steps done", ""},
             {"id_i", "1", "i", "id of the first rod", ""},
             {"id_j", "1", "j", "id of the second rod", ""},
             {"image_x", "1", "", "box edges by which the second rod is displaced", ""},
             {"image_y", "1", "", "box edges by which the second rod is displaced", ""},
             {"image_z", "1", "", "box edges by which the second rod is displaced", ""},
-            {"force", unit_of(units, dimension::force), "gamma", "contact force", "positive: repulsive"},
+            {"force", unit_of(scene, dimension::force), "gamma", "contact force", "positive: repulsive"},
             {"gap", length, "Phi", "gap before the step", "negative: overlap"},
             {"normal_x", "1", "n", "unit vector from the first to the second rod", ""},
             {"normal_y", "1", "n", "unit vector from the first to the second rod", ""},
@@ -30,28 +30,28 @@ std::vector<SeriesColumn> contact_columns(UnitSystem units) {
             {"arm_j", length, "s_j", "position of the contact along the second rod's axis, from its centre", ""}};
 }
 
-std::vector<SeriesColumn> lineage_columns(UnitSystem units) {
+std::vector<SeriesColumn> lineage_columns(const Scene& scene) {
     return {{"step", "1", "k", "number of steps done", ""},
-            {"time", unit_of(units, dimension::time), "t", "simulated time", ""},
+            {"time", unit_of(scene, dimension::time), "t", "simulated time", ""},
             {"birth", "1", "", "1: a cell was born; 0: it died", ""},
             {"id", "1", "i", "id of the cell", ""},
             {"mother", "1", "", "id of the cell that divided, and lives on behind it; of a death: its own id", ""},
-            {"length", unit_of(units, dimension::length), "L", "length of the cell then", ""}};
+            {"length", unit_of(scene, dimension::length), "L", "length of the cell then", ""}};
 }
 
-std::vector<SeriesColumn> field_columns(UnitSystem units) {
-    const std::string length = unit_of(units, dimension::length);
+std::vector<SeriesColumn> field_columns(const Scene& scene) {
+    const std::string length = unit_of(scene, dimension::length);
     std::vector<SeriesColumn> columns = {
         {"step", "1", "k", "number of steps done", ""},
-        {"time", unit_of(units, dimension::time), "t", "simulated time", ""},
+        {"time", unit_of(scene, dimension::time), "t", "simulated time", ""},
         {"x", length, "", "centre of the cell; not a number: all that lies beyond open edges of the box", ""},
         {"y", length, "", "centre of the cell", ""},
         {"z", length, "", "centre of the cell", ""},
-        {"number_density", unit_of(units, dimension::number_density), "n",
+        {"number_density", unit_of(scene, dimension::number_density), "n",
          "rods per volume in the cell, mean over the steps since the last field", ""}};
     for (const char* name : stress_column_names)
         columns.push_back(
-            {name, unit_of(units, dimension::stress), "Sigma_col",
+            {name, unit_of(scene, dimension::stress), "Sigma_col",
              "element of the collision stress in the cell (position, force), mean over the steps since the "
              "last field",
              "positive in compression"});
@@ -70,12 +70,11 @@ struct SideTable {
 enum : std::size_t { contacts_table, lineage_table, field_table };
 
 std::array<SideTable, 3> side_tables(const Scene& scene) {
-    const UnitSystem units = scene.units.system;
-    return {{{"contacts", scene.output.contacts, contact_columns(units), &Checkpoint::contacts_bytes,
+    return {{{"contacts", scene.output.contacts, contact_columns(scene), &Checkpoint::contacts_bytes,
               &Checkpoint::contacts_hash},
-             {"lineage", scene.growth.rate > 0.0, lineage_columns(units), &Checkpoint::lineage_bytes,
+             {"lineage", scene.growth.rate > 0.0, lineage_columns(scene), &Checkpoint::lineage_bytes,
               &Checkpoint::lineage_hash},
-             {"field", scene.output.field_every > 0, field_columns(units), &Checkpoint::field_bytes,
+             {"field", scene.output.field_every > 0, field_columns(scene), &Checkpoint::field_bytes,
               &Checkpoint::field_hash}}};
 }
 
@@ -230,7 +229,6 @@ void RunFiles::append_field(const Simulation& simulation, const StressField& fie
 void RunFiles::write_checkpoint(const Simulation& simulation, const StepSums& sums) {
     Checkpoint checkpoint = checkpoint_of(simulation, sums, resolved_scene_);
     series_file_.sync();
-    checkpoint.series_rows = series_.rows();
     checkpoint.series_bytes = series_file_.bytes();
     checkpoint.series_hash = series_file_.hash();
     if (journal_) {

@@ -208,7 +208,7 @@ ProductionWindow production_window(const Scene& scene, const SeriesTable& series
 Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTable& series, double run_max_overlap) {
     const ProductionWindow window = production_window(scene, series);
     const std::size_t first = window.first_row;
-    const std::string stress_unit = unit_of(scene.units.system, dimension::stress);
+    const std::string stress_unit = unit_of(scene, dimension::stress);
     const Rods& rods = simulation.rods();
     const bool thermal = simulation.settings().kT > 0.0, grows = scene.growth.rate > 0.0;
     const auto average_of = [&](const char* name) { return average(from_row(series.column(name), first)); };

@@ -53,7 +53,8 @@ ExitCode verify_command(const std::string& folder) {
     const auto path = [&](const char* name) { return folder + "/" + name; };
     for (const char* name : {"checkpoint.previous", "checkpoint"}) {
         if (!file_exists(path(name))) continue;
-        const Checkpoint checkpoint = read_checkpoint(path(name));
+        const Checkpoint checkpoint =
+            std::string_view(name) == "checkpoint" ? latest_checkpoint(folder).value() : read_checkpoint(path(name));
         verify_growing_files(folder, checkpoint);
         std::printf("%s: sound, step %llu\n", name, static_cast<unsigned long long>(checkpoint.step));
     }

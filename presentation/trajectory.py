@@ -86,6 +86,7 @@ def _no_trajectory(folder):
     path = folder / "trajectory.h5"
     if (folder / "trajectory.journal").exists():
         return Refusal(path, "there is none yet: it is made when the run stops",
-                       "Stop the run with Ctrl-C, or let it end")
+                       "Stop the run with Ctrl-C, or let it end; one that was killed has to go on first: "
+                       "run the same command again")
     return Refusal(path, "the run kept no trajectory",
                    "Set output.trajectory_every in the scene, and run it into a new folder")

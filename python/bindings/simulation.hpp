@@ -20,7 +20,7 @@ public:
     SimulationInPython(SceneInPython scene, Checkpoint checkpoint);
 
     /// One step. Throws std::runtime_error where a step is under way or no rods are left. A step that fails is told by
-    /// the report; then nothing has changed.
+    /// the report; where its contacts could not be resolved nothing has changed.
     void step();
     /// At most so many steps, until no rods are left or one fails; false if one failed. Throws what signal handlers
     /// raise.

@@ -61,6 +61,7 @@ GROWTH = [
     ({"division_length": 1.0}, "is not above what two daughters need", "greater than 1"),
     ({"division_length": 2.0}, "is not above rods.length = 2", "greater than 2"),
     ({"rate": 6.0}, "lengthens cells by 0.12 in a step of 0.02", "at most 5"),
+    ({"rate": 4.0, "rate_deviation": 0.1}, "lengthens cells by 0.112 in a step of 0.02", "at most 3.571"),
     ({"rate_deviation": -0.1}, "is negative", "at least 0"),
     ({"division_deviation": 0.9}, "is outside the allowed range", "at most 0.5"),
     ({"division": "size"}, "is not one of the words", 'Did you mean "sizer"?'),
@@ -149,6 +150,24 @@ def test_swimmers_too_fast_for_a_step_from_the_diffusion(tmp_path):
     assert sorted(entry.name for entry in tmp_path.iterdir()) == ["scene.toml"]
 
 
+@pytest.mark.parametrize("production, part", [(1e-20, "is shorter than one step"), (1e29, "takes more than 1e+15 steps")])
+def test_times_beside_a_step_from_the_diffusion(tmp_path, production, part):
+    write_scene(tmp_path, changed(RODS, time={"step": None, "rms_step": 0.03, "production": production}))
+    for name in ("check", "run"):
+        require_one_line(command(tmp_path, name, "scene.toml"), "scene.toml: time.production = ", part)
+    assert sorted(entry.name for entry in tmp_path.iterdir()) == ["scene.toml"]
+
+
+@pytest.mark.parametrize("division", ["sizer", "adder", "timer"])
+def test_slender_daughters_of_cells_that_divide_early(tmp_path, division):
+    growth = {"rate": 0.1, "division_length": 5.0, "division": division}
+    scene = changed(RODS, rods={"length": 3.0}, mobility={"model": "slender_body"})
+    write_scene(tmp_path, changed(scene, growth=growth))
+    assert command(tmp_path, "check", "scene.toml").returncode == DONE
+    write_scene(tmp_path, changed(scene, growth={**growth, "division_deviation": 0.15}))
+    require_one_line(command(tmp_path, "check", "scene.toml"), "makes daughters as short as L/D = ", "finite_aspect_ratio")
+
+
 @pytest.mark.parametrize("table, key, example", [("rods", "count", "count = 2000"), ("rods", "length", "length = 5.0"),
                                                  ("time", "production", "production = 50.0")])
 def test_missing_key(tmp_path, table, key, example):
@@ -229,7 +248,11 @@ RODS_FILES = {
     "overlap": (HEADER + "1,1,1,1,0,0\n1,1.5,1,1,0,0\n", "scene.toml", 'rods.file = "rods.csv"',
                 "overlap by up to 0.5", "(allowed: overlaps up to 0.001)"),
     "overlap through the box": (HEADER + "6,6,0.2,1,0,0\n6,6,11.9,1,0,0\n", "overlap by up to 0.7"),
-    "too thick for the box": ("x,y,z,nx,ny,nz,diameter\n6,6,6,1,0,0,12.5\n", "thinner than a rod's diameter"),
+    "far away": (HEADER + "1,1,1,1,0,0\n5,-1.3e7,5,1,0,0\n", "rods.csv = rod 1: lies far outside the box: y = -13000000",
+                 "(allowed: -1.2e+07 to 1.2e+07)"),
+    "other diameters": ("x,y,z,nx,ny,nz,diameter\n1,1,1,1,0,0,0.01\n5,5,5,1,0,0,0.5\n", "rods.diameter = 1: is no diameter of the rods",
+                        "(allowed: 0.01 to 0.5)", "Set it to the mean"),
+    "too thick for the box": ("x,y,z,nx,ny,nz,diameter\n6,6,6,1,0,0,12.5\n9,9,9,1,0,0,1\n", "thinner than a rod's diameter"),
 }
 
 

@@ -40,7 +40,7 @@ def sealed(payload_and_header):
 
 
 @pytest.mark.parametrize("table, key, value", [("fluid", "viscosity", 2.0), ("rods", "count", 51),
-                                               ("time", "production", 4.0), ("solver", "tolerance", 2e-5)])
+                                               ("time", "step", 0.01), ("solver", "tolerance", 2e-5)])
 def test_checkpoint_of_another_scene(torn_copy, table, key, value):
     scene = changed(RODS, **{"seed": RODS["seed"], table: {key: value}})
     write_scene(torn_copy, scene)

@@ -6,7 +6,7 @@ import signal
 import h5py
 import numpy as np
 
-from jostle_command import (DONE, STOPPED, changed, column, finish, mean, require_same_results, run, start, wait_until,
+from jostle_command import (DONE, NUMERICS, STOPPED, changed, column, finish, mean, require_same_results, run, start, wait_until,
                             write_scene)
 
 # Ten cells, three generations, a little noise; every file written, no two of the intervals in step.
@@ -81,10 +81,26 @@ def test_soft_cells_that_have_died_out_go_on(tmp_path):
 
 
 def test_swimmers_from_a_file_that_divide_take_little_memory(tmp_path):
-    """Daughters' ids there begin at 2^31."""
+    """Daughters' ids have gaps: they are no rows."""
     (tmp_path / "rods.csv").write_text("x,y,z,nx,ny,nz\n5,5,5,1,0,0\n10,10,10,0,1,0\n")
     write_scene(tmp_path, changed(CELLS, rods={"count": None, "start": "file", "file": "rods.csv"},
                                   growth={"death_rate": 0.0}, motion={"self_propulsion": 1.0}))
     folder = finish(tmp_path)
-    assert max(column(folder / "lineage.csv", "id")) >= 2**31
+    ids = column(folder / "lineage.csv", "id")
+    assert max(ids) > len(ids) + 2
     assert (folder / "checkpoint").stat().st_size < 100000
+
+
+def test_lines_longer_than_ids_can_tell(tmp_path):
+    """40 founders have 6 bits of an id, their lines the other 47: the run ends there, as one that failed."""
+    write_scene(tmp_path, changed(CELLS, rods={"count": 40, "length": 1.0}, box={"edges": [60.0, 60.0, 60.0]},
+                                  growth={"rate": 1.0, "rate_deviation": 0.0, "division_deviation": 0.0,
+                                          "division_length": 3.0, "death_rate": 0.31},
+                                  time={"step": 0.05, "production": 200.0},
+                                  output={"series_every": 20, "trajectory_every": 500, "contacts": False}))
+    result = run(tmp_path)
+    assert result.returncode == NUMERICS and "has had 47 divisions in its line (allowed: at most 47" in result.stderr
+    record = json.loads((tmp_path / "run/run.json").read_text())
+    assert "has had 47 divisions" in record["exit_reason"]
+    assert (tmp_path / "run/post_mortem.json").exists() and (tmp_path / "run/trajectory.h5").exists()
+    assert 47 * 2.0 <= column(tmp_path / "run/series.csv", "time")[-1] + 1.0 <= 48 * 2.0

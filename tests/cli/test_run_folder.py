@@ -30,6 +30,13 @@ def test_fresh_moves_the_old_run_aside(finished_copy, finished):
     assert {name: entry[0] for name, entry in moved.items()} == {name: entry[0] for name, entry in old.items()}
 
 
+def test_fresh_takes_the_scene_from_the_folder_that_it_moves(finished_copy, finished):
+    result = command(finished_copy, "run", "run/scene.toml", "--out", "run", "--fresh")
+    assert result.returncode == DONE, result.stderr
+    for name in ("run", "run.1"):
+        require_same_results(finished_copy / name, finished / "run", same_command=name == "run.1")
+
+
 def test_fresh_takes_a_changed_scene(finished_copy, finished):
     write_scene(finished_copy, changed(RODS, seed=9))
     finish(finished_copy, "--fresh")

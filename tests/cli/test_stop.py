@@ -24,6 +24,19 @@ def reference(tmp_path_factory):
     return finish(folder), time.monotonic() - began
 
 
+def test_a_longer_production_goes_on_from_the_end(tmp_path, reference):
+    write_scene(tmp_path, with_steps(RODS, 1000))
+    finish(tmp_path)
+    write_scene(tmp_path, changed(with_steps(RODS, STEPS - 50), time={"equilibration": 50 * RODS["time"]["step"]}))
+    finish(tmp_path)
+    record = json.loads((tmp_path / "run/run.json").read_text())
+    assert [session["last_step"] for session in record["sessions"]] == [1000, STEPS]
+    write_scene(tmp_path, with_steps(RODS, STEPS))  # and now only the averages are others
+    finish(tmp_path)
+    require_same_results(tmp_path / "run", reference[0])
+    require_every_row(tmp_path / "run", 5, STEPS)
+
+
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
 def test_stop_and_go_on(tmp_path, reference, number):
     folder, lasted = reference

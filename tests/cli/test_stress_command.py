@@ -200,6 +200,23 @@ def test_shapes_equal_their_second_moments(tmp_path):
     np.testing.assert_allclose(stress(tmp_path, kind="h5")["stress"], expected, rtol=1e-13)
 
 
+@pytest.mark.parametrize("cell", [None, ""])
+def test_a_quaternion_that_is_not_whole_is_refused(tmp_path, cell):
+    """Or the body would count as not turned."""
+    tables, _, _ = random_assembly(np.random.default_rng(4), bodies=2)
+    bodies = {name: tables["bodies"][name] for name in ["id", "x", "y", "z"]} | {"shape": ["box", "box"]}
+    bodies |= {f"edge_{a}": [1, 1] for a in XYZ} | {f"quaternion_{a}": [0.5, 0.5] for a in "wxyz"}
+    if cell is None:
+        del bodies["quaternion_w"]
+    else:
+        bodies["quaternion_z"][1] = cell
+    write_csv(tmp_path / "contacts.csv", tables["contacts"])
+    write_csv(tmp_path / "bodies.csv", bodies)
+    result = command(tmp_path, "stress", "contacts.csv", "--bodies", "bodies.csv")
+    assert result.returncode == BAD_INPUT
+    assert "some of quaternion_w, quaternion_x, quaternion_y, quaternion_z not given" in result.stderr
+
+
 def test_units_are_passed_through(tmp_path):
     write_both(tmp_path, TWO_SPHERES)
     units = {"length": None, "force": None, "stress": None}

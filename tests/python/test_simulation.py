@@ -352,11 +352,12 @@ def test_motions_that_fail_leave_the_simulation_whole(rods, motion, error, messa
     fails = [False]
     simulation = jostle.Simulation(rods, lambda given, clock: motion(given, clock) if fails[0] else 0 * given.centre)
     simulation.run(512)  # the failing step would renumber rows
-    before = state(simulation)
+    before, contacts = state(simulation), simulation.contacts
     fails[0] = True
     with pytest.raises(error, match=message):
         simulation.run(10)
     assert simulation.clock.step == 512 and same(state(simulation), before)
+    assert np.array_equal(simulation.contacts, contacts)
     fails[0] = False
     simulation.run(8)
     whole = jostle.Simulation(rods)

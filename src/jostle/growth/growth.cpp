@@ -1,6 +1,7 @@
 #include "jostle/growth/growth.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <string>
 
@@ -40,19 +41,11 @@ void remove_rows(Rods& rods, const std::vector<bool>& marked) {
 
 }  // namespace
 
-Growth::Growth(const GrowthLaw& law, std::uint64_t seed, int founder_bits)
-    : law_(law), seed_(seed), founder_bits_(founder_bits) {}
-
 void Growth::found(Rods& rods) const {
     rods.cycle.clear();
+    rods.founder_bits = 0;
     for (std::size_t i = 0; i < rods.size(); ++i) {
-        if (rods.id[i] >> founder_bits_ != 0)
-            throw InputError({.key = "rods.file",
-                              .value = "id " + std::to_string(rods.id[i]),
-                              .problem = "is too large for rods that divide: daughters' ids are made from it",
-                              .allowed = "ids below " + std::to_string(std::uint64_t{1} << founder_bits_),
-                              .suggestion = "Number the rods from 0",
-                              .place = {}});
+        rods.founder_bits = std::max(rods.founder_bits, static_cast<int>(std::bit_width(rods.id[i])));
         rods.cycle.push_back(newborn(rods.id[i], rods.length[i], rods.diameter[i], 0, 0));
     }
 }
@@ -132,15 +125,16 @@ bool Growth::dies(std::uint64_t id, std::uint64_t step, double time_step) const 
 
 LineageEvent Growth::split(Rods& rods, std::size_t row, const Box& box, std::uint64_t step) const {
     const std::uint64_t mother = rods.id[row], divisions = rods.cycle[row].divisions;
-    if (founder_bits_ + static_cast<int>(divisions) >= id_bits)
+    const int new_bit = rods.founder_bits + static_cast<int>(divisions);
+    if (new_bit >= id_bits)
         throw InputError(
             {.key = "growth",
              .value = "cell " + std::to_string(mother),
              .problem = "has had " + std::to_string(divisions) + " divisions in its line",
-             .allowed = "at most " + std::to_string(id_bits - founder_bits_) + ": ids cannot tell more apart",
+             .allowed = "at most " + std::to_string(id_bits - rods.founder_bits) + ": ids cannot tell more apart",
              .suggestion = "Start anew from its rods",
              .place = {}});
-    const std::uint64_t daughter = mother | std::uint64_t{1} << (founder_bits_ + static_cast<int>(divisions));
+    const std::uint64_t daughter = mother | std::uint64_t{1} << new_bit;
     const double diameter = rods.diameter[row], length = 0.5 * (rods.length[row] - diameter);
     const Vec3 axis = rods.axis[row], step_along = 0.25 * (rods.length[row] + diameter) * axis;
     const Vec3 front = rods.centre[row] + step_along;

@@ -29,10 +29,9 @@ struct LineageEvent {
 /// threads, any order of rows, and after any restart.
 class Growth {
 public:
-    /// `founder_bits`: ids at the start are below 2^founder_bits.
-    Growth(const GrowthLaw& law, std::uint64_t seed, int founder_bits);
+    Growth(const GrowthLaw& law, std::uint64_t seed) : law_(law), seed_(seed) {}
 
-    /// The cycles of the rods at the start, which all are as if just born. Throws InputError if an id is too large.
+    /// Gives the rods at the start their cycles, which all are as if just born, and `founder_bits`.
     void found(Rods& rods) const;
 
     /// One step of growth: rate dt, less where a cell is compressed (dL/dt = rate (1 - F/F_stall), at least 0; theory,
@@ -56,7 +55,6 @@ private:
 
     GrowthLaw law_;
     std::uint64_t seed_;
-    int founder_bits_;
 };
 
 }  // namespace jostle

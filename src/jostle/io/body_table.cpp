@@ -34,10 +34,11 @@ class Row {
 public:
     Row(const Table& table, std::size_t row) : table_(table), row_(row) {}
 
-    bool gives(const std::vector<std::string>& columns) const {
-        for (const std::string& name : columns)
-            if (!table_.numbers.contains(name) || std::isnan(table_.numbers.at(name)[row_])) return false;
-        return true;
+    bool gives(const std::string& name) const {
+        return table_.numbers.contains(name) && !std::isnan(table_.numbers.at(name)[row_]);
+    }
+    bool gives_any(const std::vector<std::string>& columns) const {
+        return std::ranges::any_of(columns, [this](const std::string& name) { return gives(name); });
     }
     double number(const std::string& name) const { return numbers({name})[0]; }
     Vec3 vector(const std::string& name) const {
@@ -45,7 +46,9 @@ public:
         return {values[0], values[1], values[2]};
     }
     std::vector<double> numbers(const std::vector<std::string>& columns) const {
-        if (!gives(columns)) throw InputError({.problem = fmt::format("{} not given", fmt::join(columns, ", "))});
+        if (!std::ranges::all_of(columns, [this](const std::string& name) { return gives(name); }))
+            throw InputError({.problem = fmt::format("{}{} not given", gives_any(columns) ? "some of " : "",
+                                                     fmt::join(columns, ", "))});
         std::vector<double> values;
         for (const std::string& name : columns) values.push_back(table_.numbers.at(name)[row_]);
         return values;
@@ -63,7 +66,7 @@ Mat3 symmetric(const Row& row, const std::string& name) {
 }
 
 Mat3 orientation_of(const Row& row) {
-    if (!row.gives(quaternion_columns)) return identity();
+    if (!row.gives_any(quaternion_columns)) return identity();
     const auto q = row.numbers(quaternion_columns);
     if (!(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] > 1e-24))
         throw InputError({.problem = "the quaternion has no length"});
@@ -71,7 +74,8 @@ Mat3 orientation_of(const Row& row) {
 }
 
 Vec3 axis_of(const Row& row) {
-    if (!row.gives(vector_columns("axis")) && row.gives(quaternion_columns)) return orientation_of(row) * Vec3{0, 0, 1};
+    if (!row.gives_any(vector_columns("axis")) && row.gives_any(quaternion_columns))
+        return orientation_of(row) * Vec3{0, 0, 1};
     const Vec3 axis = row.vector("axis");
     if (!(norm(axis) > 1e-12)) throw InputError({.problem = "the axis has no direction"});
     return normalised(axis);

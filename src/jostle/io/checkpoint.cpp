@@ -16,7 +16,7 @@ namespace {
 
 // The first byte is no text and the last is a newline, so that a file mangled as text no longer matches.
 constexpr std::string_view magic = "\x89JOSTLE\n";
-constexpr std::uint32_t format_version = 5;
+constexpr std::uint32_t format_version = 6;
 constexpr std::size_t header_bytes = 24;
 constexpr std::size_t checksum_bytes = 8;
 constexpr const char* start_again = "Start the run again with --fresh";
@@ -62,6 +62,7 @@ void put_rods(Payload& writer, const Rods& rods) {
     writer.put_elements(rods.image);
     writer.put(static_cast<std::uint64_t>(rods.cycle.size()));
     writer.put_elements(rods.cycle);
+    writer.put(static_cast<std::int32_t>(rods.founder_bits));
     writer.put(static_cast<std::uint64_t>(rods.speed.size()));
     writer.put_elements(rods.speed);
 }
@@ -78,6 +79,8 @@ Rods take_rods(ByteReader& reader) {
     const auto cycles = reader.take<std::uint64_t>();
     if (cycles != 0 && cycles != count) throw std::out_of_range("cell cycles and rods differ in number");
     reader.take_elements(cycles, rods.cycle);
+    rods.founder_bits = reader.take<std::int32_t>();
+    if (rods.founder_bits < 0 || rods.founder_bits > 53) throw std::out_of_range("ids of cells out of range");
     const auto speeds = reader.take<std::uint64_t>();
     if (speeds != 0 && speeds != count) throw std::out_of_range("speeds and rods differ in number");
     reader.take_elements(speeds, rods.speed);
@@ -144,7 +147,6 @@ Payload payload_of(const Checkpoint& checkpoint) {
     put_forces(writer, checkpoint.last_forces);
     writer.put(static_cast<std::uint64_t>(checkpoint.accumulators.size()));
     writer.put_elements(checkpoint.accumulators);
-    writer.put(checkpoint.series_rows);
     writer.put(checkpoint.series_bytes);
     writer.put(checkpoint.series_hash);
     writer.put(checkpoint.trajectory_bytes);
@@ -170,7 +172,6 @@ Checkpoint from_payload(std::string_view payload) {
     checkpoint.last_forces = take_forces(reader, checkpoint.rods.size());
     const auto accumulator_count = reader.take<std::uint64_t>();
     reader.take_elements(accumulator_count, checkpoint.accumulators);
-    checkpoint.series_rows = reader.take<std::uint64_t>();
     checkpoint.series_bytes = reader.take<std::uint64_t>();
     checkpoint.series_hash = reader.take<std::uint64_t>();
     checkpoint.trajectory_bytes = reader.take<std::uint64_t>();
@@ -298,7 +299,9 @@ void require_same_springs(const Checkpoint& checkpoint, std::vector<Spring> spri
 }
 
 void require_same_scene(const Checkpoint& checkpoint, const std::string& scene, const std::string& folder) {
-    if (checkpoint.scene == scene) return;
+    const auto only_tells_the_end = [](std::string_view line) {
+        return line.starts_with("production = ") || line.starts_with("equilibration = ");
+    };
     std::istringstream before(checkpoint.scene), now(scene);
     std::string line_before, line_now;
     int line = 0;
@@ -306,7 +309,8 @@ void require_same_scene(const Checkpoint& checkpoint, const std::string& scene, 
         ++line;
         if (!std::getline(before, line_before)) line_before = "(nothing)";
         if (!std::getline(now, line_now)) line_now = "(nothing)";
-    } while (line_before == line_now && (before || now));
+        if (!before && !now) return;
+    } while (line_before == line_now || (only_tells_the_end(line_before) && only_tells_the_end(line_now)));
     throw refused_file(folder + "/checkpoint",
                        "the checkpoint is of another scene: line " + std::to_string(line) +
                            " of the resolved scene was \"" + line_before + "\" and is \"" + line_now + "\"",

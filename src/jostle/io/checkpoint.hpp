@@ -22,7 +22,6 @@ struct Checkpoint {
     std::vector<Spring> springs;         ///< between them, with the images that they hold
     std::vector<LastForce> last_forces;  ///< that the next step begins from, if any
     std::vector<double> accumulators;    ///< running sums of the run; their order is the simulation's own
-    std::uint64_t series_rows = 0;       ///< rows of series.csv, without the header
     std::uint64_t series_bytes = 0;      ///< length of series.csv, with the header
     std::uint64_t series_hash = 0;       ///< checksum of these bytes
     std::uint64_t trajectory_bytes = 0;  ///< length of trajectory.journal; 0: the run keeps no trajectory
@@ -58,7 +57,8 @@ std::optional<Checkpoint> latest_checkpoint(const std::string& folder);
 /// InputError.
 void require_same_springs(const Checkpoint& checkpoint, std::vector<Spring> springs, const std::string& path);
 
-/// Refuses a checkpoint of another scene; the message names the first line that differs. Errors: InputError.
+/// Refuses a checkpoint of another scene, but for time.production and time.equilibration, which only tell when to end;
+/// the message names the first line that differs. Errors: InputError.
 void require_same_scene(const Checkpoint& checkpoint, const std::string& scene, const std::string& folder);
 
 }  // namespace jostle

@@ -109,10 +109,10 @@ const toml::array& KeyReader::three(const toml::node& node, const std::string& e
 
 std::string KeyReader::allowed(const Quantity& quantity) const {
     std::string text = "a number";
-    const std::string unit = unit_of(units_, quantity.dimension);
+    const bool micro = units_ == UnitSystem::micro;
+    const std::string unit = micro ? micro_unit_of(quantity.dimension) : unit_of(Scene{}, quantity.dimension);
     if (!unit.empty()) text += " in " + unit;
-    if (units_ == UnitSystem::micro && !unit.empty())
-        text += ", or with its unit as \"" + example_quantity(quantity.dimension) + "\"";
+    if (micro && !unit.empty()) text += ", or with its unit as \"" + example_quantity(quantity.dimension) + "\"";
     return quantity.automatic ? text + ", or \"auto\"" : text;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/io/rods_file.hpp"
@@ -16,6 +17,8 @@
 namespace jostle {
 
 namespace {
+
+constexpr double most_edges_away = 1e6;
 
 /// The keys that a file with the rods' own speeds needs, and does not go with.
 void require_swimming(const Scene& scene, const std::string& file) {
@@ -34,6 +37,29 @@ void require_swimming(const Scene& scene, const std::string& file) {
                "Remove it, or the column");
 }
 
+/// Tolerances are lengths in units of rods.diameter.
+void require_diameter(const Scene& scene, const std::string& file, double thinnest, double thickest) {
+    if (scene.rods.diameter >= thinnest && scene.rods.diameter <= thickest) return;
+    throw InputError({.key = "rods.diameter",
+                      .value = fmt::format("{}", scene.rods.diameter),
+                      .problem = fmt::format("is no diameter of the rods in {}, and overlaps are judged by it", file),
+                      .allowed = fmt::format("{} to {}", thinnest, thickest),
+                      .suggestion = "Set it to the mean of the file's diameters"});
+}
+
+/// Farther away, doubles would no longer tell where in the box a rod is.
+void require_near(const Rods& rods, const Box& box, const std::string& file) {
+    const double farthest = most_edges_away * std::max({box.edges.x, box.edges.y, box.edges.z});
+    for (std::size_t i = 0; i < rods.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            if (std::fabs(rods.centre[i][k]) > farthest)
+                throw InputError(
+                    {.key = file,
+                     .value = fmt::format("rod {}", rods.id[i]),
+                     .problem = fmt::format("lies far outside the box: {} = {}", "xyz"[k], rods.centre[i][k]),
+                     .allowed = fmt::format("-{0:g} to {0:g}", farthest)});
+}
+
 }  // namespace
 
 std::optional<Rods> rods_from_file(const Scene& scene, const std::filesystem::path& scene_path) {
@@ -48,21 +74,16 @@ std::optional<Rods> rods_from_file(const Scene& scene, const std::filesystem::pa
                           .suggestion = "Leave rods.count out to take all of the file",
                           .place = {scene_path.string()}});
     if (!rods.speed.empty()) require_swimming(scene, file.string());
-    validate_box(scene, total_volume(rods), *std::max_element(rods.diameter.begin(), rods.diameter.end()));
+    const auto [thinnest, thickest] = std::minmax_element(rods.diameter.begin(), rods.diameter.end());
+    require_diameter(scene, file.string(), *thinnest, *thickest);
+    validate_box(scene, total_volume(rods), *thickest);
+    require_near(rods, box_of(scene, rods), file.string());
     return rods;
 }
 
 Box box_of(const Scene& scene, const std::optional<Rods>& rods) {
     const double volume = rods ? total_volume(*rods) : rods_volume(scene);
     return {box_edges(scene, volume), scene.box.periodic};
-}
-
-void require_slow_swimmers_in_file(const Scene& scene, const std::filesystem::path& scene_path, const Rods& rods) {
-    try {
-        require_slow_swimmers(scene, rods, time_step(scene, *make_mobility(scene, rods), rods));
-    } catch (const InputError& error) {
-        throw error.with_place({scene_path.string()});
-    }
 }
 
 std::string springs_path(const Scene& scene, const std::filesystem::path& scene_path) {
@@ -76,44 +97,22 @@ std::vector<Spring> springs_from_file(const Scene& scene, const std::filesystem:
     return read_springs(springs_path(scene, scene_path), rods.size(), [&](std::uint64_t id) { return length[id]; });
 }
 
-std::optional<StressField> field_in_file(const Scene& scene, const std::filesystem::path& scene_path, const Box& box) {
-    try {
-        return make_field(scene, box);
-    } catch (const InputError& error) {
-        throw error.with_place({scene_path.string()});
-    }
-}
-
-double slow_springs_in_file(const Scene& scene, const std::filesystem::path& scene_path,
-                            std::span<const Spring> springs, const MobilityOfRod& mobility_of, double time_step) {
-    const double relaxation = spring_relaxation(springs, mobility_of, time_step);
-    try {
-        require_slow_springs(scene, relaxation, time_step);
-    } catch (const InputError& error) {
-        throw error.with_place({scene_path.string()});
-    }
-    return relaxation;
-}
-
 Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_path) {
-    try {
+    return in_scene_file(scene_path, [&] {
         const auto from_file = rods_from_file(scene, scene_path);
         const Box box = box_of(scene, from_file);
         Beginning beginning = {box, make_start(scene, box, from_file), {}};
-        require_slow_swimmers_in_file(scene, scene_path, beginning.rods);
-        field_in_file(scene, scene_path, box);
+        const auto mobility = make_mobility(scene, beginning.rods);
+        const double step = time_step(scene, *mobility, beginning.rods);
+        require_countable_steps(scene, step);
+        require_slow_swimmers(scene, beginning.rods, step);
+        make_field(scene, box);  // for what it refuses
         beginning.springs = springs_from_file(scene, scene_path, beginning.rods);
         hold_nearest_images(beginning.springs, beginning.rods, box);
-        const auto mobility = make_mobility(scene, beginning.rods);
-        slow_springs_in_file(
-            scene, scene_path, beginning.springs,
-            [&](std::uint64_t id) { return mobility->of_rod(id); },  // at the start rows are ids
-            time_step(scene, *mobility, beginning.rods));
+        const auto mobility_of = [&](std::uint64_t id) { return mobility->of_rod(id); };  // at the start rows are ids
+        require_slow_springs(scene, beginning.springs, mobility_of, step);
         return beginning;
-    } catch (const InputError& error) {
-        if (!error.parts().place.file.empty()) throw;
-        throw error.with_place({scene_path.string()});
-    }
+    });
 }
 
 }  // namespace jostle

@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "jostle/motion/springs.hpp"
+#include "jostle/error/input_error.hpp"
 #include "jostle/rods/box.hpp"
+#include "jostle/rods/rods.hpp"
+#include "jostle/rods/spring.hpp"
 #include "jostle/simulation/scene.hpp"
-#include "jostle/stress/stress_field.hpp"
 
 namespace jostle {
 
@@ -31,17 +32,18 @@ std::string springs_path(const Scene& scene, const std::filesystem::path& scene_
 /// The springs of a scene between these rods, empty where it names none; images are 0. Errors: InputError, DiskError.
 std::vector<Spring> springs_from_file(const Scene& scene, const std::filesystem::path& scene_path, const Rods& rods);
 
-/// `spring_relaxation`. Errors: InputError, with the scene's name, where springs are too stiff for the time step.
-double slow_springs_in_file(const Scene& scene, const std::filesystem::path& scene_path,
-                            std::span<const Spring> springs, const MobilityOfRod& mobility_of, double time_step);
+/// What `call()` returns; an InputError of it without a place gets the scene's name.
+template <class Call>
+auto in_scene_file(const std::filesystem::path& scene_path, Call&& call) {
+    try {
+        return call();
+    } catch (const InputError& error) {
+        if (!error.parts().place.file.empty()) throw;
+        throw error.with_place({scene_path.string()});
+    }
+}
 
-/// The stress field of a scene. Errors: InputError, with the scene's name, where its cells are too many.
-std::optional<StressField> field_in_file(const Scene& scene, const std::filesystem::path& scene_path, const Box& box);
-
-/// Throws InputError, with the scene's name, where rods swim or tumble too fast for the time step.
-void require_slow_swimmers_in_file(const Scene& scene, const std::filesystem::path& scene_path, const Rods& rods);
-
-/// Makes the start of a scene. Errors: InputError where the rods do not fit.
+/// Makes the start of a scene. Errors: InputError where the rods do not fit, or move too fast for the time step.
 Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_path);
 
 }  // namespace jostle

@@ -62,12 +62,12 @@ std::string written(const std::optional<Number>& value) {
     return value ? written(*value) : "";
 }
 
-std::string unit_comment(UnitSystem units, const Quantity& quantity) {
-    const std::string unit = unit_of(units, quantity.dimension);
+std::string unit_comment(const Scene& scene, const Quantity& quantity) {
+    const std::string unit = unit_of(scene, quantity.dimension);
     return unit.empty() ? "" : "  # " + unit;
 }
 template <class Other>
-std::string unit_comment(UnitSystem, const Other&) {
+std::string unit_comment(const Scene&, const Other&) {
     return "";
 }
 
@@ -94,7 +94,7 @@ std::string to_toml(const Scene& scene) {
             heading = table;
             text += fmt::format("\n[{}]\n", table);
         }
-        text += fmt::format("{} = {}{}\n", name, value, unit_comment(scene.units.system, spec));
+        text += fmt::format("{} = {}{}\n", name, value, unit_comment(scene, spec));
     });
     return text;
 }

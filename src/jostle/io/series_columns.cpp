@@ -11,7 +11,7 @@ namespace jostle {
 namespace {
 
 void append_active_columns(const Scene& scene, std::vector<SeriesColumn>& columns) {
-    const std::string stress = unit_of(scene.units.system, dimension::stress);
+    const std::string stress = unit_of(scene, dimension::stress);
     const std::string sign =
         "positive in compression; not a number in the rows before the first displacements of that age";
     columns.push_back({"pressure_active", stress, "Pi_act", "Tr Sigma_act/3 at this step", sign});
@@ -24,7 +24,7 @@ void append_active_columns(const Scene& scene, std::vector<SeriesColumn>& column
 }
 
 void append_spring_columns(const Scene& scene, std::vector<SeriesColumn>& columns) {
-    const std::string stress = unit_of(scene.units.system, dimension::stress);
+    const std::string stress = unit_of(scene, dimension::stress);
     const std::string sign = "positive in compression: negative where springs pull";
     columns.push_back(
         {"pressure_springs", stress, "Pi_spr", "Tr Sigma_spr/3, mean over the steps since the last row", sign});
@@ -37,14 +37,13 @@ void append_spring_columns(const Scene& scene, std::vector<SeriesColumn>& column
 }  // namespace
 
 std::vector<SeriesColumn> series_columns(const Scene& scene) {
-    const UnitSystem units = scene.units.system;
-    const std::string stress = unit_of(units, dimension::stress);
+    const std::string stress = unit_of(scene, dimension::stress);
     const std::string pressure_sign = "positive in compression";
     const bool springs = !scene.springs.file.empty();
     const std::string parts = springs ? "with the kinetic part n kT and that of springs" : "with the kinetic part n kT";
     std::vector<SeriesColumn> columns = {
         {"step", "1", "k", "number of steps done", ""},
-        {"time", unit_of(units, dimension::time), "t", "simulated time", ""},
+        {"time", unit_of(scene, dimension::time), "t", "simulated time", ""},
         {"N", "1", "N", "number of rods at this step", ""},
         {"phi", "1", "phi", "volume of the rods at this step over volume of the box", ""},
         {"Z", "1", "Z", "compressibility factor Pi/(n kT), mean over the steps since the last row", pressure_sign},
@@ -58,7 +57,7 @@ std::vector<SeriesColumn> series_columns(const Scene& scene) {
     columns.push_back({"nematic_order", "1", "S", "largest eigenvalue of the order tensor at this step", ""});
     for (const char* name : order_tensor_column_names)
         columns.push_back({name, "1", "Q", "element of the order tensor <3 n n - I>/2 at this step", ""});
-    const std::string length = unit_of(units, dimension::length);
+    const std::string length = unit_of(scene, dimension::length);
     columns.push_back(
         {"contacts", "1", "", "pairs of points that might touch, mean over the steps since the last row", ""});
     columns.push_back(

@@ -29,6 +29,12 @@ void StepSums::add(const StepReport& report) {
 
 void StepSums::add(const StepReport& report, const Simulation& simulation) {
     add(report);
+    if (active_stress) {
+        std::vector<ActiveStress::Division> divisions;
+        for (const LineageEvent& event : simulation.lineage())
+            if (event.kind == LineageEvent::Kind::birth) divisions.push_back({event.mother, event.id});
+        active_stress->divide(simulation.rods(), simulation.box(), divisions);
+    }
     if (field) field->add(simulation.collision_moments(), simulation.rods().centre);
 }
 

@@ -67,7 +67,7 @@ public:
         if (at_end()) refuse("has no unit", "");
         for (int sign = 1; !at_end(); sign = read_operator()) read_unit(sign);
         if (!(dimension_ == expected_)) {
-            const std::string unit = unit_of(UnitSystem::micro, dimension_);
+            const std::string unit = micro_unit_of(dimension_);
             refuse("is a quantity in " + (unit.empty() ? "pure numbers" : unit), "");
         }
         // a quotient of two exact numbers is rounded once; a product with 10^-3 would be rounded twice
@@ -82,7 +82,7 @@ private:
         throw InputError({"",
                           "\"" + text_ + "\"",
                           std::move(problem),
-                          "a number, or a text with a unit of " + unit_of(UnitSystem::micro, expected_),
+                          "a number, or a text with a unit of " + micro_unit_of(expected_),
                           std::move(suggestion),
                           {}});
     }
@@ -169,10 +169,17 @@ double parse_quantity(std::string_view text, Dimension expected) {
     return QuantityParser(text, expected).parse();
 }
 
-std::string unit_of(UnitSystem system, Dimension d) {
-    if (system == UnitSystem::micro) return product({{"pN", d.force}, {"um", d.length}, {"s", d.time}});
-    // force = kT/D, time = mu D^3/kT
-    return product({{"kT", d.force - d.time}, {"D", d.length - d.force + 3 * d.time}, {"mu", d.time}});
+std::string micro_unit_of(Dimension d) {
+    return product({{"pN", d.force}, {"um", d.length}, {"s", d.time}});
+}
+
+std::string unit_of(const Scene& scene, Dimension d) {
+    if (scene.units.system == UnitSystem::micro) return micro_unit_of(d);
+    const char* energy = scene.fluid.kT == 1.0 ? "kT" : "energy_unit";
+    const char* length = scene.rods.diameter == 1.0 ? "D" : "length_unit";
+    const char* viscosity = scene.fluid.viscosity == 1.0 ? "mu" : "viscosity_unit";
+    // force = energy/length, time = viscosity length^3/energy
+    return product({{energy, d.force - d.time}, {length, d.length - d.force + 3 * d.time}, {viscosity, d.time}});
 }
 
 std::string example_quantity(Dimension d) {
@@ -181,7 +188,7 @@ std::string example_quantity(Dimension d) {
     if (d == dimension::speed) return "2 um/s";
     if (d == dimension::viscosity) return "1e-3 Pa s";
     if (d == dimension::energy) return "0.00411 pN um";
-    return "1 " + unit_of(UnitSystem::micro, d);
+    return "1 " + micro_unit_of(d);
 }
 
 }  // namespace jostle

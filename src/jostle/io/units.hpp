@@ -20,9 +20,12 @@ double parse_quantity(std::string_view text, Dimension expected);
 /// numbers.
 ///
 /// "micro": products of pN, um and s. "reduced": products of kT, D and mu (the viscosity), the units of energy, length
-/// and viscosity, so that time has the unit "kT-1 D3 mu"; the numbers are in D, kT, mu where these three are 1 in the
-/// scene.
-std::string unit_of(UnitSystem units, Dimension dimension);
+/// and viscosity, so that time has the unit "kT-1 D3 mu". Where one of the three is not 1 in the scene it is not the
+/// unit, which then is called "energy_unit", "length_unit" or "viscosity_unit".
+std::string unit_of(const Scene& scene, Dimension dimension);
+
+/// The same in the micro system, whatever the scene.
+std::string micro_unit_of(Dimension dimension);
 
 /// A quantity as a user may write it in the micro system, as "300 nm" for a length; for error messages.
 std::string example_quantity(Dimension dimension);

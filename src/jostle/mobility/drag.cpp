@@ -1,10 +1,11 @@
 #include "jostle/mobility/drag.hpp"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
-#include "jostle/error/input_error.hpp"
+#include "jostle/error/require_value.hpp"
 
 namespace jostle {
 
@@ -12,28 +13,13 @@ namespace {
 
 using std::numbers::pi;
 
-std::string written(double value) {
-    std::ostringstream text;
-    text << value;
-    return text.str();
-}
-
-void require(bool good, const char* key, double value, const char* problem, const char* allowed) {
-    if (!good)
-        throw InputError({.key = key,
-                          .value = written(value),
-                          .problem = problem,
-                          .allowed = allowed,
-                          .suggestion = {},
-                          .place = {}});
-}
-
 void require_physical(double length, double diameter, double viscosity) {
-    require(std::isfinite(length) && length >= 0.0, "rods.length", length, "is no length of a rod", ">= 0, finite");
-    require(std::isfinite(diameter) && diameter > 0.0, "rods.diameter", diameter, "is no diameter of a rod",
-            "> 0, finite");
-    require(std::isfinite(viscosity) && viscosity > 0.0, "fluid.viscosity", viscosity, "is no viscosity",
-            "> 0, finite");
+    require_value(std::isfinite(length) && length >= 0.0, "rods.length", length, "is no length of a rod",
+                  ">= 0, finite");
+    require_value(std::isfinite(diameter) && diameter > 0.0, "rods.diameter", diameter, "is no diameter of a rod",
+                  "> 0, finite");
+    require_value(std::isfinite(viscosity) && viscosity > 0.0, "fluid.viscosity", viscosity, "is no viscosity",
+                  "> 0, finite");
 }
 
 /// ln p + c_0 + c_1/p + c_2/p^2 + a/p^4, where a makes it `at_sphere` at p = 1.
@@ -52,7 +38,7 @@ RodMobility slender_body_drag(double length, double diameter, double viscosity) 
         throw InputError(
             {.key = "mobility.model",
              .value = "slender_body",
-             .problem = "gives a rod of L/D = " + written(length / diameter) + " negative drag along its axis",
+             .problem = fmt::format("gives a rod of L/D = {:.4g} negative drag along its axis", length / diameter),
              .allowed = "L/D > sqrt(e)/2 = 0.824",
              .suggestion = "Use finite_aspect_ratio, which holds for every L/D >= 0",
              .place = {}});

@@ -1,11 +1,10 @@
 #include "jostle/mobility/drag_mobility.hpp"
 
-#include <atomic>
 #include <cassert>
 #include <cmath>
-#include <exception>
 #include <utility>
 
+#include "jostle/error/input_error.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
@@ -32,17 +31,15 @@ void DragMobility::update(const Rods& rods) {
         kind[i] = static_cast<std::uint32_t>(first.size() - 1);
     }
     std::vector<Kind> kinds(first.size());
-    std::atomic<bool> refused = false;  // laws may throw, which must not leave a thread
-    const auto ask = [&](std::size_t k) { return law_(rods.length[first[k]], rods.diameter[first[k]]); };
-    parallel_for(kinds.size(), [&](std::size_t k) {
-        try {
-            const RodMobility own = ask(k);
-            kinds[k] = {own, {std::sqrt(own.parallel), std::sqrt(own.perpendicular), std::sqrt(own.rotational)}};
-        } catch (const std::exception&) {
-            refused = true;
-        }
-    });
-    for (std::size_t k = 0; refused && k < kinds.size(); ++k) ask(k);
+    const auto ask = [&](std::size_t k) {
+        const RodMobility own = law_(rods.length[first[k]], rods.diameter[first[k]]);
+        kinds[k] = {own, {std::sqrt(own.parallel), std::sqrt(own.perpendicular), std::sqrt(own.rotational)}};
+    };
+    try {
+        parallel_for(kinds.size(), ask);
+    } catch (const InputError&) {  // of the first rod that the law refuses, whichever thread came first
+        for (std::size_t k = 0; k < kinds.size(); ++k) ask(k);
+    }
     kind_.swap(kind);
     kinds_.swap(kinds);
 }

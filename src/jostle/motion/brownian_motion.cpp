@@ -3,24 +3,15 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <sstream>
 
-#include "jostle/error/input_error.hpp"
+#include "jostle/error/require_value.hpp"
 #include "jostle/math/random.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
 
 BrownianMotion::BrownianMotion(double kT, const Mobility& mobility) : kT_(kT), mobility_(mobility) {
-    if (std::isfinite(kT) && kT >= 0.0) return;
-    std::ostringstream value;
-    value << kT;
-    throw InputError({.key = "fluid.kT",
-                      .value = value.str(),
-                      .problem = "is no thermal energy",
-                      .allowed = ">= 0, finite",
-                      .suggestion = {},
-                      .place = {}});
+    require_value(std::isfinite(kT) && kT >= 0.0, "fluid.kT", kT, "is no thermal energy", ">= 0, finite");
 }
 
 void BrownianMotion::add_to(Velocities& known, const Rods& rods, const StepContext& context) const {

@@ -4,8 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "jostle/error/require_value.hpp"
 #include "jostle/math/random.hpp"
-#include "jostle/motion/require_value.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {

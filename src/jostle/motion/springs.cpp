@@ -4,7 +4,7 @@
 #include <cassert>
 #include <unordered_map>
 
-#include "jostle/motion/require_value.hpp"
+#include "jostle/error/require_value.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {

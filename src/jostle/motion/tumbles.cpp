@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jostle/error/require_value.hpp"
 #include "jostle/math/random.hpp"
-#include "jostle/motion/require_value.hpp"
 
 namespace jostle {
 

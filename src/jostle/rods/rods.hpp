@@ -32,6 +32,7 @@ struct Rods {
     std::vector<std::uint64_t> id;  ///< (N) permanent, never reused
     std::vector<Image> image;       ///< (N) box edges crossed since the start: unwrapped = centre + image * edges
     std::vector<CellCycle> cycle;   ///< (N), or empty where rods do not grow
+    int founder_bits = 0;           ///< where they do: ids at the start were below 2^founder_bits
     std::vector<double>
         speed;  ///< (N) own speeds of swimmers, or empty where a law gives them (motion/self_propulsion)
 

@@ -74,6 +74,7 @@ Rods reordered(const Rods& rods, std::span<const std::uint32_t> order) {
     take(result.id, rods.id);
     take(result.image, rods.image);
     if (!rods.cycle.empty()) take(result.cycle, rods.cycle);
+    result.founder_bits = rods.founder_bits;
     if (!rods.speed.empty()) take(result.speed, rods.speed);
     return result;
 }

@@ -1,7 +1,6 @@
 #include "jostle/simulation/assemble.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <unordered_map>
 
@@ -40,9 +39,6 @@ double time_step(const Scene& scene, const Mobility& mobility, const Rods& rods)
 
 namespace {
 
-/// Ids at the start are 0 ... count - 1, or what a file holds.
-constexpr int founder_bits_of_file = 31;
-
 void set_springs(const Scene& scene, const Rods& rods, const Mobility& mobility, std::vector<Spring> springs,
                  SimulationSettings& settings) {
     if (springs.empty() && !scene.springs.file.empty())
@@ -54,7 +50,7 @@ void set_springs(const Scene& scene, const Rods& rods, const Mobility& mobility,
         const auto found = rows.find(id);
         return found == rows.end() ? RodMobility{} : mobility.of_rod(found->second);
     };
-    require_slow_springs(scene, spring_relaxation(springs, mobility_of, settings.time_step), settings.time_step);
+    require_slow_springs(scene, springs, mobility_of, settings.time_step);
     settings.springs = std::move(springs);
 }
 
@@ -63,13 +59,6 @@ void set_springs(const Scene& scene, const Rods& rods, const Mobility& mobility,
 bool noise_is_weak(const Scene& scene, double time_step) {
     const RodMobility sphere = finite_aspect_ratio_drag(0.0, scene.rods.diameter, scene.fluid.viscosity);
     return std::sqrt(2.0 * thermal_energy(scene) * sphere.parallel * time_step) <= scene.growth.rate * time_step;
-}
-
-void set_growth(const Scene& scene, SimulationSettings& settings) {
-    settings.growth = scene.growth;
-    settings.founder_bits = scene.rods.start == StartKind::file
-                                ? founder_bits_of_file
-                                : static_cast<int>(std::bit_width(scene.rods.count - 1));
 }
 
 }  // namespace
@@ -109,7 +98,7 @@ Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock, 
     settings.lcp.step_rule = scene.solver.step_rule == StepRule::bb1   ? BarzilaiBorwein::bb1
                              : scene.solver.step_rule == StepRule::bb2 ? BarzilaiBorwein::bb2
                                                                        : BarzilaiBorwein::alternating;
-    if (scene.growth.rate > 0.0) set_growth(scene, settings);
+    if (scene.growth.rate > 0.0) settings.growth = scene.growth;
     set_springs(scene, rods, *mobility, std::move(springs), settings);
     std::vector<std::unique_ptr<Motion>> motions;
     if (settings.kT > 0.0) motions.push_back(std::make_unique<BrownianMotion>(settings.kT, *mobility));

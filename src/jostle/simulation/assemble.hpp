@@ -13,7 +13,7 @@ namespace jostle {
 std::unique_ptr<Mobility> make_mobility(const Scene& scene, const Rods& rods);
 
 /// The time step of a scene: `time.step`, or from `time.rms_step` = sqrt(2 D_t dt)/D with D_t = kT (parallel + 2
-/// perpendicular)/3 of the fastest rod.
+/// perpendicular)/3 of the fastest rod. Throws InputError where it is too long for growth.
 double time_step(const Scene& scene, const Mobility& mobility, const Rods& rods);
 
 /// The stress field that a scene asks for, without steps, if any. Throws InputError where its cells are too many.

@@ -17,6 +17,7 @@ constexpr double free_space = 1e-3;
 constexpr double reach = 0.1;
 constexpr double largest_move = 0.2;  ///< of any point of a rod in a round
 constexpr double tolerance = 1e-4;
+constexpr double rounding = 1e-12;  ///< overlaps that are none: of a rod with its own image in a box of just its width
 constexpr std::uint64_t iterations_each_round = 300;
 
 /// Moves the rods by the velocities (time step 1), all slowed down alike so that none goes too far.
@@ -47,7 +48,7 @@ PushApartResult push_apart(Rods& rods, const Box& box, Mobility& mobility, int l
     for (;; ++result.rounds) {
         neighbours.update(rods, box, reaches);
         result.overlap = find_contacts(rods, box, neighbours, reaches, contacts);
-        result.apart = result.overlap <= 0.0;
+        result.apart = result.overlap <= rounding * thinnest;
         if (result.apart || result.rounds == largest_rounds) return result;
 
         std::vector<double> b(contacts.size());

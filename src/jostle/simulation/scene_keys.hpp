@@ -53,6 +53,7 @@ struct Count {
     std::uint64_t lower = 0;
     std::uint64_t upper = std::numeric_limits<std::int64_t>::max();  // the largest whole number of TOML
 };
+inline constexpr std::uint64_t most_steps = 1'000'000'000'000'000;  ///< a run: counts stay exact as double
 /// ... or a text, one of a few words (`words`), or true and false.
 struct Plain {};
 
@@ -99,7 +100,7 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("growth", "daughters", scene.growth.daughters, Plain{});
     visit("growth", "stall_force", scene.growth.stall_force, Quantity{dim::force, positive});
     visit("growth", "death_rate", scene.growth.death_rate, Quantity{dim::rate, zero_or_positive});
-    visit("growth", "division_every", scene.growth.division_every, Count{1});
+    visit("growth", "division_every", scene.growth.division_every, Count{1, most_steps});
     visit("springs", "file", scene.springs.file, Plain{});
     visit("contact", "model", scene.contact.model, Plain{});
     visit("contact", "energy", scene.contact.energy, Quantity{dim::energy, positive, true});
@@ -116,7 +117,7 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("time", "rms_step", scene.time.rms_step, Quantity{dim::none, {1e-6, 0.5}});
     visit("time", "equilibration", scene.time.equilibration, Quantity{dim::time, zero_or_positive, true});
     visit("time", "production", scene.time.production, Quantity{dim::time, positive});
-    visit("output", "series_every", scene.output.series_every, Count{1});
+    visit("output", "series_every", scene.output.series_every, Count{1, most_steps});
     visit("output", "trajectory_every", scene.output.trajectory_every, Count{0});
     visit("output", "checkpoint_every", scene.output.checkpoint_every, Count{1});
     visit("output", "contacts", scene.output.contacts, Plain{});

@@ -51,7 +51,7 @@ Simulation::Simulation(Box box, Rods rods, Clock clock, std::unique_ptr<Mobility
                           .problem = "the time step must be positive"});
     if (!settings_.springs.empty()) add_springs();
     if (settings_.growth) {
-        growth_.emplace(*settings_.growth, settings_.seed, settings_.founder_bits);
+        growth_.emplace(*settings_.growth, settings_.seed);
         if (rods_.cycle.empty()) growth_->found(rods_);
     }
     take_over_rods();
@@ -128,6 +128,7 @@ void Simulation::renumber() {
     constexpr std::uint64_t every = 512;
     if (clock_.step % every != 0) return;
     const std::vector<std::uint32_t> order = space_filling_order(rods_, box_);
+    if (ids_before_.empty()) ids_before_ = rods_.id;  // of the last step's contacts, should this one end early
     rods_ = reordered(rods_, order);
     if (settings_.warm_start) warm_start_.renumber(new_rows(order));
     take_over_rods();

@@ -38,7 +38,6 @@ struct SimulationSettings {
     bool collision_moments = false;   ///< the parts of the collision stress are kept, contact by contact
     std::vector<Spring> springs;      ///< between rods that stay: nothing may grow
     std::optional<GrowthLaw> growth;
-    int founder_bits = 0;  ///< ids of the rods at the start are below 2^founder_bits
 };
 
 /// Rods in a box, and the step that moves them.
@@ -74,7 +73,7 @@ public:
     const std::vector<LastForce>& last_forces() const { return warm_start_.forces(); }
     /// The parts of its collision stress, if the settings ask for them.
     const CollisionMoments& collision_moments() const { return moments_; }
-    /// Ids of the rows that these refer to: those of `rods()`, but where cells have died since.
+    /// Ids of the rows that these refer to: those of `rods()`, but where cells have died, or rows changed, since.
     const std::vector<std::uint64_t>& contact_ids() const { return ids_before_.empty() ? rods_.id : ids_before_; }
 
 private:

@@ -97,7 +97,9 @@ struct Grid {
 /// The grid with at least `count` sites that leaves the most room in its tightest direction.
 Grid roomiest_grid(std::uint64_t count, const std::array<double, 3>& edges, const std::array<double, 3>& size) {
     Grid best;
-    const auto most = [&](std::size_t k) { return static_cast<std::uint64_t>(std::max(1.0, edges[k] / size[k])); };
+    const auto most = [&](std::size_t k) {
+        return static_cast<std::uint64_t>(std::clamp(edges[k] / size[k], 1.0, static_cast<double>(count)));
+    };
     for (std::uint64_t across = 1; across <= most(1); ++across) {
         for (std::uint64_t along = 1; along <= most(0); ++along) {
             const std::uint64_t rest = (count + across * along - 1) / (across * along);

@@ -8,6 +8,7 @@
 
 #include "jostle/motion/self_propulsion.hpp"
 #include "jostle/simulation/refusal.hpp"
+#include "jostle/simulation/scene_keys.hpp"
 #include "jostle/simulation/scene_motion.hpp"
 
 namespace jostle {
@@ -19,18 +20,36 @@ constexpr double farthest_turn = 0.25;
 /// A rod that swims farther than this in a step (in D) could pass through others.
 constexpr double farthest_swim = 0.5;
 
+/// Rates of cells beyond the mean by so many standard deviations are one in thirty thousand.
+constexpr double deviations_of_the_fastest = 4.0;
+constexpr auto largest_step_number = static_cast<double>(most_steps);
+
 constexpr const char* slower_tumbles = "Use a shorter time.step or slower tumbles";
 
 }  // namespace
 
 void require_short_growth(const Scene& scene, double time_step) {
-    const double longest = 0.1 * scene.rods.diameter, of_step = scene.growth.rate * time_step;
+    const double longest = 0.1 * scene.rods.diameter;
+    const double fastest = 1.0 + deviations_of_the_fastest * scene.growth.rate_deviation;
+    const double of_step = fastest * scene.growth.rate * time_step;
     if (of_step > longest)
         refuse("growth.rate", text(scene.growth.rate),
                fmt::format("lengthens cells by {} in a step of {}: contacts cannot follow", rounded(of_step),
                            rounded(time_step)),
-               fmt::format("at most {}, a tenth of the diameter in a step", rounded(longest / time_step)),
+               fmt::format("at most {}, a tenth of the diameter in a step", rounded(longest / (fastest * time_step))),
                "Use a shorter time.step");
+}
+
+void require_countable_steps(const Scene& scene, double time_step) {
+    if (scene.time.production < time_step)
+        refuse("time.production", text(scene.time.production), "is shorter than one step",
+               fmt::format("at least {}{}", scene.time.step ? "time.step = " : "one step, ", text(time_step)), "");
+    const bool long_production = scene.time.production / time_step > largest_step_number;
+    if (long_production || scene.time.equilibration.value_or(0.0) / time_step > largest_step_number)
+        refuse(long_production ? "time.production" : "time.equilibration",
+               text(long_production ? scene.time.production : *scene.time.equilibration),
+               fmt::format("takes more than {:g} steps of time.step = {}", largest_step_number, text(time_step)),
+               fmt::format("at most {:g} steps", largest_step_number), "Use a longer step or a shorter time");
 }
 
 void require_slow_swimmers(const Scene& scene, const Rods& rods, double time_step) {
@@ -61,8 +80,10 @@ void require_slow_swimmers(const Scene& scene, const Rods& rods, double time_ste
     }
 }
 
-void require_slow_springs(const Scene& scene, double relaxation, double time_step) {
-    if (relaxation <= 1.0) return;
+double require_slow_springs(const Scene& scene, std::span<const Spring> springs, const MobilityOfRod& mobility_of,
+                            double time_step) {
+    const double relaxation = spring_relaxation(springs, mobility_of, time_step);
+    if (relaxation <= 1.0) return relaxation;
     refuse(
         "springs.file", scene.springs.file,
         fmt::format("springs are too stiff for the time step: in one of {} they may lose {} times their stretch (2 dt "

@@ -42,6 +42,22 @@ void ActiveStress::begin(const Rods& rods, const Box& box) {
     remember_new(rods, box);
 }
 
+void ActiveStress::divide(const Rods& rods, const Box& box, std::span<const Division> divisions) {
+    if (divisions.empty()) return;
+    know(rods);
+    std::vector<Vec3> now(rods.size());
+    parallel_for(rods.size(), [&](std::size_t i) { now[place_of(rods.id[i])] = unwrapped(rods, box, i); });
+    for (const Division& division : divisions) {
+        const std::size_t mother = place_of(division.mother), daughter = place_of(division.daughter);
+        const Vec3 apart = 0.5 * (now[daughter] - now[mother]);  // her centre was half way between the two
+        for (std::vector<Vec3>* remembered : {&newer_, &older_}) {
+            const Vec3 from = (*remembered)[mother];
+            (*remembered)[mother] = from - apart;
+            (*remembered)[daughter] = from + apart;
+        }
+    }
+}
+
 Mat3 ActiveStress::virial(const Rods& rods, const Box& box, std::span<const Vec3> force) {
     ++looks_;
     if (looks_ % lag_ == 0) {

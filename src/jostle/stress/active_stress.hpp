@@ -23,8 +23,17 @@ public:
     /// Remembers where the rods are at the beginning.
     void begin(const Rods& rods, const Box& box);
 
+    /// A rod that has divided, and the one that came of it.
+    struct Division {
+        std::uint64_t mother, daughter;
+    };
+
+    /// To be told of every division before the next: both go on with the path that the mother has come, and what moves
+    /// their centres apart is no part of it. `rods`: after the divisions.
+    void divide(const Rods& rods, const Box& box, std::span<const Division> divisions);
+
     /// The next look. `force` (N): of the propulsion. The sum over rods of x F, first index that of x; not numbers in
-    /// the first `lag` - 1 looks. A rod that came later counts from the look that saw it first.
+    /// the first `lag` - 1 looks. A rod that came otherwise than by a division counts from the look that saw it first.
     Mat3 virial(const Rods& rods, const Box& box, std::span<const Vec3> force);
 
     /// For checkpoints.

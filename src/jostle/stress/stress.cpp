@@ -1,33 +1,20 @@
 #include "jostle/stress/stress.hpp"
 
-#include <fmt/format.h>
-
+#include <cmath>
 #include <limits>
 
-#include "jostle/error/input_error.hpp"
+#include "jostle/error/require_value.hpp"
 #include "jostle/math/symmetric_eigen.hpp"
 
 namespace jostle {
 
-namespace {
-
-void require(bool allowed, const char* key, double value, const char* range, const char* problem) {
-    if (allowed && std::isfinite(value)) return;
-    throw InputError({.key = key,
-                      .value = fmt::format("{}", value),
-                      .problem = problem,
-                      .allowed = range,
-                      .suggestion = "",
-                      .place = {}});
-}
-
-}  // namespace
-
 Stress assembly_stress(double number_density, double kT, const Mat3& sum_of_pair_stresses, double volume,
                        const Mat3& sum_of_spring_stresses) {
-    require(number_density >= 0.0, "number_density", number_density, "finite, >= 0", "no density");
-    require(kT >= 0.0, "kT", kT, "finite, >= 0", "no temperature");
-    require(volume > 0.0, "volume", volume, "finite, > 0", "no volume to refer the stress to");
+    require_value(std::isfinite(number_density) && number_density >= 0.0, "number_density", number_density,
+                  "is no density", ">= 0, finite");
+    require_value(std::isfinite(kT) && kT >= 0.0, "kT", kT, "is no temperature", ">= 0, finite");
+    require_value(std::isfinite(volume) && volume > 0.0, "volume", volume, "is no volume to refer the stress to",
+                  "> 0, finite");
     return {(number_density * kT) * identity(), (1.0 / volume) * sum_of_pair_stresses,
             (1.0 / volume) * sum_of_spring_stresses};
 }
@@ -46,8 +33,8 @@ double pressure_springs(const Stress& stress) {
 
 double compressibility(const Stress& stress, double number_density, double kT) {
     const double ideal_pressure = number_density * kT;
-    require(ideal_pressure > 0.0, "number_density * kT", ideal_pressure, "finite, > 0",
-            "the compressibility factor needs thermal motion");
+    require_value(std::isfinite(ideal_pressure) && ideal_pressure > 0.0, "number_density * kT", ideal_pressure,
+                  "leaves no thermal motion, which the compressibility factor needs", "> 0, finite");
     return pressure(stress) / ideal_pressure;
 }
 

@@ -86,27 +86,36 @@ TEST_CASE("what is no quantity is refused") {
 }
 
 TEST_CASE("names of units for outputs") {
-    CHECK(unit_of(UnitSystem::micro, dimension::stress) == "pN um-2");
-    CHECK(unit_of(UnitSystem::micro, dimension::viscosity) == "pN um-2 s");
-    CHECK(unit_of(UnitSystem::micro, dimension::energy) == "pN um");
-    CHECK(unit_of(UnitSystem::micro, dimension::speed) == "um s-1");
-    CHECK(unit_of(UnitSystem::micro, dimension::number_density) == "um-3");
-    CHECK(unit_of(UnitSystem::micro, dimension::none) == "");
-    CHECK(unit_of(UnitSystem::reduced, dimension::length) == "D");
-    CHECK(unit_of(UnitSystem::reduced, dimension::energy) == "kT");
-    CHECK(unit_of(UnitSystem::reduced, dimension::viscosity) == "mu");
-    CHECK(unit_of(UnitSystem::reduced, dimension::stress) == "kT D-3");
-    CHECK(unit_of(UnitSystem::reduced, dimension::force) == "kT D-1");
-    CHECK(unit_of(UnitSystem::reduced, dimension::time) == "kT-1 D3 mu");
-    CHECK(unit_of(UnitSystem::reduced, dimension::speed) == "kT D-2 mu-1");
-    CHECK(unit_of(UnitSystem::reduced, dimension::none) == "");
+    Scene scene;
+    scene.units.system = UnitSystem::micro;
+    CHECK(unit_of(scene, dimension::stress) == "pN um-2");
+    CHECK(unit_of(scene, dimension::viscosity) == "pN um-2 s");
+    CHECK(unit_of(scene, dimension::energy) == "pN um");
+    CHECK(unit_of(scene, dimension::speed) == "um s-1");
+    CHECK(unit_of(scene, dimension::number_density) == "um-3");
+    CHECK(unit_of(scene, dimension::none) == "");
+    scene.units.system = UnitSystem::reduced;
+    CHECK(unit_of(scene, dimension::length) == "D");
+    CHECK(unit_of(scene, dimension::energy) == "kT");
+    CHECK(unit_of(scene, dimension::viscosity) == "mu");
+    CHECK(unit_of(scene, dimension::stress) == "kT D-3");
+    CHECK(unit_of(scene, dimension::force) == "kT D-1");
+    CHECK(unit_of(scene, dimension::time) == "kT-1 D3 mu");
+    CHECK(unit_of(scene, dimension::speed) == "kT D-2 mu-1");
+    CHECK(unit_of(scene, dimension::none) == "");
+    scene.fluid.kT = 0.01;
+    CHECK(unit_of(scene, dimension::stress) == "energy_unit D-3");
+    scene.rods.diameter = 2.0;
+    CHECK(unit_of(scene, dimension::number_density) == "length_unit-3");
+    scene.fluid.viscosity = 3.0;
+    CHECK(unit_of(scene, dimension::time) == "energy_unit-1 length_unit3 viscosity_unit");
 }
 
 TEST_CASE("every example and every micro unit reads back in its own dimension") {
     for (const Dimension d :
          {dimension::length, dimension::time, dimension::force, dimension::volume, dimension::speed, dimension::rate,
           dimension::number_density, dimension::energy, dimension::stress, dimension::viscosity}) {
-        CHECK(parse_quantity("3 " + unit_of(UnitSystem::micro, d), d) == 3.0);
+        CHECK(parse_quantity("3 " + micro_unit_of(d), d) == 3.0);
         CHECK(parse_quantity(example_quantity(d), d) > 0.0);
     }
 }

@@ -193,5 +193,5 @@ TEST_CASE("growth that cannot be is refused with the numbers") {
     bad = scene;
     bad.mobility.model = MobilityModel::slender_body;
     bad.growth.division_length = 2.6;
-    CHECK(message(bad).find("daughters of L/D = 0.8") != std::string::npos);
+    CHECK(message(bad).find("daughters as short as L/D = 0.8") != std::string::npos);
 }

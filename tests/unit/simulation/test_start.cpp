@@ -104,6 +104,16 @@ TEST_CASE("lattice starts fit close to their packing limit, and say so beyond it
     CHECK_THROWS_AS(make_start(scene, box), InputError);
 }
 
+TEST_CASE("a few spheres in a vast lattice are placed at once") {
+    const Rods rods = make_start(scene_of(10, 0.0, StartKind::lattice), {{4e6, 4e6, 4e6}, {true, true, true}});
+    CHECK(rods.size() == 10);
+}
+
+TEST_CASE("in a box of just their width, rods do not overlap their own images by rounding") {
+    const Box box{{20, 20, 1}, {true, true, true}};
+    CHECK(largest_overlap(make_start(scene_of(40, 5.0, StartKind::aligned), box), box) < 1e-12);
+}
+
 TEST_CASE("rods from a file must not overlap") {
     const Scene scene = scene_of(0, 5.0, StartKind::file);
     const Box box{{20, 20, 20}, {true, true, true}};

@@ -58,6 +58,38 @@ TEST_CASE("a rod that comes later counts from where it was first seen; one that 
     CHECK(stress.virial(rods_at(3), box, force)(0, 0) == doctest::Approx(3.0 * 3.0));
 }
 
+TEST_CASE("daughters go on with their mother's path, and how their centres part from hers is none of it") {
+    ActiveStress stress(2);
+    Rods rods;
+    rods.push_back(0, {1, 1, 1}, {1, 0, 0}, 6.0, 1.0);
+    rods.push_back(1, {5, 5, 5}, {1, 0, 0}, 6.0, 1.0);
+    stress.begin(rods, box);
+    const std::vector<Vec3> forces = {{2, 0, 0}, {0, 3, 0}, {0, 0, 4}};
+    for (int look = 1; look <= 12; ++look) {
+        for (std::size_t i = 0; i < rods.size(); ++i) {  // a step of (1, 1, 1)/8 for all
+            rods.centre[i] += Vec3{0.125, 0.125, 0.125};
+            box.wrap(rods.centre[i], rods.image[i]);
+        }
+        if (look == 5) {  // 1.75 = (6 + 1)/4 to both sides
+            const Vec3 mother = rods.centre[1];
+            const Image image = rods.image[1];
+            rods.centre[1] = mother - Vec3{1.75, 0, 0};
+            rods.push_back(9, mother + Vec3{1.75, 0, 0}, {1, 0, 0}, 2.5, 1.0);
+            rods.image[2] = image;
+            for (const std::size_t i : {1, 2}) box.wrap(rods.centre[i], rods.image[i]);
+            const std::vector<ActiveStress::Division> divisions = {{1, 9}};
+            stress.divide(rods, box, divisions);
+        }
+        const Mat3 virial = stress.virial(rods, box, std::span(forces).first(rods.size()));
+        if (look < 2) continue;
+        const double come =
+            0.125 * (look < 4 ? look : 2 + look % 2);  // looks of the path, as of a rod that stays whole
+        CHECK(virial(0, 0) == doctest::Approx(2.0 * come));
+        CHECK(virial(1, 1) == doctest::Approx(3.0 * come));
+        CHECK(virial(2, 2) == doctest::Approx(look < 5 ? 0.0 : 4.0 * come));
+    }
+}
+
 TEST_CASE("no lag, and numbers that are not whole, are refused") {
     CHECK_THROWS_AS(ActiveStress(0), InputError);
     CHECK_THROWS_AS(ActiveStress::from_numbers(std::vector<double>{1.0}), InputError);

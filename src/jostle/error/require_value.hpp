@@ -6,7 +6,7 @@
 
 namespace jostle {
 
-/// Throws InputError, with the value as text, unless `good`: the check of a number that a motion is made with.
+/// Throws InputError, with the value as text, unless `good`: the check of a number that something is made with.
 inline void require_value(bool good, const char* key, double value, const char* problem, const char* allowed) {
     if (good) return;
     std::ostringstream text;
