@@ -7,6 +7,7 @@
 #include "jostle/io/series_columns.hpp"
 #include "jostle/io/units.hpp"
 #include "jostle/rods/space_filling_order.hpp"
+#include "jostle/simulation/contact_by_id.hpp"
 #include "jostle/stress/stress_per_rod.hpp"
 
 using namespace jostle;
@@ -165,32 +166,23 @@ void RunFiles::append_frame(const Simulation& simulation) {
 }
 
 void RunFiles::append_contacts(const Simulation& simulation) {
-    const Contacts& contacts = simulation.contacts();
-    const std::vector<std::uint64_t>& ids = simulation.contact_ids();
-    for (std::size_t l = 0; l < contacts.size(); ++l) {
+    for (std::size_t l = 0; l < simulation.contacts().size(); ++l) {
         const double force = simulation.contact_solution().gamma[l];
         if (force <= 0.0) continue;
-        Contact contact = contacts.contact[l];
-        Image image = contacts.image[l];
-        if (ids[contact.i] > ids[contact.j]) {  // the smaller id first
-            std::swap(contact.i, contact.j);
-            std::swap(contact.arm_i, contact.arm_j);
-            contact.normal = -contact.normal;
-            for (std::int32_t& edges : image) edges = -edges;
-        }
+        const auto& [id, image, normal, arm] = contact_by_id(simulation, l);
         const std::vector<double> row = {static_cast<double>(simulation.clock().step),
-                                         static_cast<double>(ids[contact.i]),
-                                         static_cast<double>(ids[contact.j]),
+                                         static_cast<double>(id[0]),
+                                         static_cast<double>(id[1]),
                                          static_cast<double>(image[0]),
                                          static_cast<double>(image[1]),
                                          static_cast<double>(image[2]),
                                          force,
-                                         contact.gap,
-                                         contact.normal.x,
-                                         contact.normal.y,
-                                         contact.normal.z,
-                                         contact.arm_i,
-                                         contact.arm_j};
+                                         simulation.contacts().contact[l].gap,
+                                         normal.x,
+                                         normal.y,
+                                         normal.z,
+                                         arm[0],
+                                         arm[1]};
         side_files_[contacts_table]->append(row);
     }
 }

@@ -10,28 +10,13 @@
 #include "jostle/io/scene_writer.hpp"
 #include "jostle/io/series_columns.hpp"
 #include "jostle/simulation/assemble.hpp"
+#include "jostle/simulation/contact_by_id.hpp"
 #include "jostle/simulation/step_failure.hpp"
 #include "jostle/simulation/validate_scene.hpp"
 
 namespace jostle::python {
 
 namespace {
-
-/// A contact as contacts.csv has it: the smaller id first.
-struct ContactById {
-    std::array<std::uint64_t, 2> id;
-    Image image;
-    Vec3 normal;
-    std::array<double, 2> arm;
-};
-
-ContactById contact_by_id(const Simulation& simulation, std::size_t l) {
-    const Contact& contact = simulation.contacts().contact[l];
-    const Image& image = simulation.contacts().image[l];
-    const std::uint64_t i = simulation.contact_ids()[contact.i], j = simulation.contact_ids()[contact.j];
-    if (i <= j) return {{i, j}, image, contact.normal, {contact.arm_i, contact.arm_j}};
-    return {{j, i}, {-image[0], -image[1], -image[2]}, -contact.normal, {contact.arm_j, contact.arm_i}};
-}
 
 Simulation at_the_start(const SceneInPython& scene) {
     validate(scene.scene);

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "jostle/simulation/simulation.hpp"
+
+namespace jostle {
+
+/// A contact as files and Python have it: by the ids of its rods, the smaller one first.
+struct ContactById {
+    std::array<std::uint64_t, 2> id;
+    Image image;  ///< of the second rod
+    Vec3 normal;  ///< from the first to the second
+    std::array<double, 2> arm;
+};
+
+/// Contact l of the last step.
+inline ContactById contact_by_id(const Simulation& simulation, std::size_t l) {
+    const Contact& contact = simulation.contacts().contact[l];
+    const Image& image = simulation.contacts().image[l];
+    const std::uint64_t i = simulation.contact_ids()[contact.i], j = simulation.contact_ids()[contact.j];
+    if (i <= j) return {{i, j}, image, contact.normal, {contact.arm_i, contact.arm_j}};
+    return {{j, i}, {-image[0], -image[1], -image[2]}, -contact.normal, {contact.arm_j, contact.arm_i}};
+}
+
+}  // namespace jostle
