@@ -151,11 +151,12 @@ def run_all(jostle, runs, folder, processes):
     print(f"{len(runs)} runs, {len(runs) - len(waiting)} of them done before; the others take about "
           f"{duration(foretold / processes)} on {processes} processors", flush=True)
     threads = max(1, processes // max(1, len(waiting)))
-    running, failed = {}, []
+    running, failed, stopped = {}, [], []
     progress = Progress(runs)
-    former = signal.signal(signal.SIGTERM, lambda *_: (_ for _ in ()).throw(KeyboardInterrupt()))
+    # Not by an exception: one between the start of a run and its place in the list would leave it running for ever.
+    former = {number: signal.signal(number, lambda *_: stopped.append(True)) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
-        while waiting or running:
+        while (waiting or running) and not stopped:
             while waiting and len(running) < processes:
                 run = waiting.pop()
                 running[start(jostle, run, threads)] = run
@@ -167,15 +168,16 @@ def run_all(jostle, runs, folder, processes):
             progress.show(len(runs) - len(waiting) - len(running))
             if running:
                 time.sleep(SECONDS_BETWEEN_LOOKS)
-    except KeyboardInterrupt:
-        for process in running:
-            process.send_signal(signal.SIGINT)  # a second one, where Ctrl-C has reached it, too, ends it at once
-        for process in running:
-            process.wait()
-        raise Stopped from None
     finally:
         progress.end()
-        signal.signal(signal.SIGTERM, former)
+        for number, handler in former.items():
+            signal.signal(number, handler)
+    if waiting or running:
+        for process in running:
+            process.send_signal(signal.SIGINT)
+        for process in running:
+            process.wait()
+        raise Stopped
     if failed:
         raise RunFailed("\n".join(failed))
 

@@ -18,6 +18,9 @@ SPEEDS = (0.0, 0.5, 1.0, 2.0, 3.5, 5.0)  # U_0/(L D_R)
 RMS_STEP = 0.1  # D: rods that meet in pairs are exact at any step
 COUNT, QUICK_COUNT = 400000, 20000
 AVERAGED = 2000  # steps
+# Swimmers gather where they meet, and slow ones take long to: at U_0 = 0.5 L D_R the collision pressure of L/D = 5 and 10 rises by 3 % until rods
+# have diffused over some seven diameters, 6 D_t t = 48 D2; longer rods take until they have turned a little.
+LEVELLED = round(48 / 3 / RMS_STEP**2)  # steps
 
 
 def rotational_diffusion(beta):
@@ -39,8 +42,7 @@ def runs(quick):
                        "mobility": {"model": "slender_body"},
                        "motion": {"self_propulsion": speed * beta * rotational_diffusion(beta)},
                        "time": {"step": time_step(beta)}, "contact": {"overlap_limit": 0.9}},
-                # The collision pressure of swimmers is level after a fifth of the time in which rods forget their direction.
-                equilibration=math.ceil(0.3 / (rotational_diffusion(beta) * time_step(beta))),
+                equilibration=max(LEVELLED, math.ceil(0.3 / (rotational_diffusion(beta) * time_step(beta)))),
                 production=AVERAGED * (5 if quick else 1))
             for beta, phi in SHAPES.items() for speed in SPEEDS]
 

@@ -100,6 +100,7 @@ def test_stop_and_resume(tmp_path):
     assert process.returncode == 75 and "goes on from here" in errors
     assert not (folder / "verdict.json").exists()
     again = subprocess.run(command, capture_output=True, text=True, check=False, timeout=200)
+    assert again.returncode in (0, 1), again.stdout + again.stderr
     verdict = json.loads((folder / "verdict.json").read_text())
     # A sound program fails this study's check once in a hundred seeds, and exceeds this once in ten thousand.
     assert [check["measured"] < 21.11 for check in verdict["checks"]] == [True]
