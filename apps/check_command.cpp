@@ -158,7 +158,7 @@ void print_cost(const Scene& scene, const Population& population, const Box& box
         const double filled = phi * growth.end;
         if (box.is_periodic())
             print("phi in the end, about",
-                  fmt::format("{:.3g}{}", filled, filled < 0.6 ? "" : ": cells have no room to grow so many"));
+                  fmt::format("{:.3g}{}", filled, filled <= crowded ? "" : ": cells have no room to grow so many"));
     }
     const double rows = steps / every;
     const double frames =

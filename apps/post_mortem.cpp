@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "jostle/io/durable_file.hpp"
+#include "jostle/simulation/scene_box.hpp"
 
 using namespace jostle;
 using Json = nlohmann::ordered_json;
@@ -13,8 +14,6 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr std::size_t contacts_told = 10;
-/// Volume fraction beyond which cells that grow have no room left.
-constexpr double crowded = 0.6;
 
 /// The contacts for which `rank` is largest.
 template <class Rank>

@@ -17,6 +17,9 @@ double volume_fraction(const Scene& scene, double rods_volume);
 Vec3 box_edges(const Scene& scene);
 double volume_fraction(const Scene& scene);
 
+/// Volume fraction beyond which cells that grow have no room left.
+inline constexpr double crowded = 0.6;
+
 /// Largest volume fraction of parallel spherocylinders of this L/D, v0 rho_cp = v0 2/(sqrt 2 + (L/D) sqrt 3) / D^3.
 ///
 /// Bolhuis & Frenkel, J. Chem. Phys. 106, 666 (1997); pi/sqrt 18 = 0.7405 for spheres, towards pi/sqrt 12 = 0.9069 for
