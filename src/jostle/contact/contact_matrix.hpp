@@ -18,9 +18,20 @@ struct ContactVelocity {
     Vec3 centre, turning;
 };
 
-/// How fast the gap of a contact opens, D^T U.
-inline double gap_rate(const Contact& contact, const ContactVelocity& i, const ContactVelocity& j) {
+/// How fast the gap of a contact (or what else has its normal and arms) opens, D^T U.
+template <class ContactLike>
+double gap_rate(const ContactLike& contact, const ContactVelocity& i, const ContactVelocity& j) {
     return dot(contact.normal, j.centre + contact.arm_j * j.turning - i.centre - contact.arm_i * i.turning);
+}
+
+/// Adds D gamma of a contact to what acts on its two rods.
+template <class ContactLike>
+void add_push(double gamma, const ContactLike& contact, ContactForce& on_i, ContactForce& on_j) {
+    const Vec3 push = gamma * contact.normal;
+    on_i.force -= push;
+    on_i.lever -= contact.arm_i * push;
+    on_j.force += push;
+    on_j.lever += contact.arm_j * push;
 }
 
 /// The matrix D of theory, eq. (2.2), between contact forces gamma and the rods that have contacts. Never formed.

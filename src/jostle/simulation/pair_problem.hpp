@@ -18,9 +18,9 @@ struct PairMatrix {
 /// The pair's own contact problem with all other forces as they are: `target` holds gamma on entry and gamma* on
 /// return; `velocity`, of the gaps on entry.
 ///
-/// Two points have a closed form. Of three, or of two that are nearly dependent, every set of active points is tried,
-/// and the one that violates the conditions least is taken. Nearly singular sets are left out: where three points are
-/// dependent, two of them do as well.
+/// Every set of active points is tried, first that of `target`; where signs are right it is the solution. Where
+/// rounding leaves none, the set that violates the conditions least is taken. Nearly singular sets are left out: where
+/// three points are dependent, two of them do as well.
 void solve_own_problem(const PairMatrix& pair, const Points& velocity, Points& target);
 
 }  // namespace jostle

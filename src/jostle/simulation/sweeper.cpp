@@ -17,21 +17,6 @@ constexpr double drowsy = 100.0;
 /// tolerance in a sweep.
 constexpr double quiet = 0.5;
 
-/// The force and lever of a unit gamma on each of the rods of a contact.
-struct Column {
-    ContactForce i, j;
-};
-
-Column column_of(const ContactMatrix& contact_matrix, std::uint32_t l) {
-    const Contact& contact = contact_matrix.contacts().contact[l];
-    const auto side = [&](double sign, double arm) {
-        return ContactForce{sign * contact.normal, (sign * arm) * contact.normal};
-    };
-    const ContactForce i = side(-1.0, contact.arm_i), j = side(1.0, contact.arm_j);
-    if (contact.i != contact.j) return {i, j};
-    return {{i.force + j.force, i.lever + j.lever}, {}};  // own image: one rod feels both
-}
-
 /// Appends items for `sources`, those awake before the others if the group was empty.
 template <class Group, class Source, class IsAwake, class MakeItem>
 void append(Group& group, std::vector<Source>& sources, IsAwake&& is_awake, MakeItem&& item_of) {
@@ -67,12 +52,13 @@ template <class Real>
 double Sweeper<Real>::sweep(double omega, SweepOver over) {
     const bool all = over == SweepOver::all;
     if (all && quiet_velocity_ > 0.0) stirred_.assign(velocities_.size(), 0.0F);
-    float* const stirred = all && quiet_velocity_ > 0.0 ? stirred_.data() : nullptr;
+    const Places<Real> places{matrix_.rods().data(), velocities_.data(),
+                              all && quiet_velocity_ > 0.0 ? stirred_.data() : nullptr};
     double largest = 0.0;
     const auto pass = [&](auto& group) {
         const auto items = all ? group.all() : group.awake_ones();
         largest = std::max(largest, parallel_max_of_parts(items.size(), [&](std::size_t begin, std::size_t end) {
-                               return sweep_over(items.subspan(begin, end - begin), omega, velocities_.data(), stirred);
+                               return sweep_over(items.subspan(begin, end - begin), omega, places);
                            }));
     };
     for (Colour& colour : colours_) {
@@ -90,29 +76,24 @@ double Sweeper<Real>::sweep(double omega, SweepOver over) {
 
 template <class Real>
 void Sweeper<Real>::read_velocities(std::span<ContactVelocity> velocities) const {
-    parallel_for(velocities.size(), [&](std::size_t place) {
-        velocities[place] = {velocities_[place].first(), velocities_[place].second()};
-    });
+    parallel_for(velocities.size(), [&](std::size_t place) { velocities[place] = velocities_[place].velocity(); });
 }
 
 template <class Real>
 void Sweeper<Real>::refresh(ContactSolution& solution) {
     parallel_for(solution.forces.size(), [&](std::size_t place) { solution.forces[place] = {}; });
-    for_all_contacts([&](const auto& contact) {
-        solution.gamma[contact.number] = contact.gamma;
-        if (contact.gamma == 0) return;
-        const Column column = column_of(matrix_.contact_matrix(), contact.number);
-        const double gamma = contact.gamma;
-        solution.forces[contact.i].force += gamma * column.i.force;
-        solution.forces[contact.i].lever += gamma * column.i.lever;
-        solution.forces[contact.j].force += gamma * column.j.force;
-        solution.forces[contact.j].lever += gamma * column.j.lever;
+    const ContactMatrix& contact_matrix = matrix_.contact_matrix();
+    for_all_forces([&](std::uint32_t l, double gamma) {
+        solution.gamma[l] = gamma;
+        if (gamma == 0.0) return;
+        const auto [i, j] = contact_matrix.ends()[l];
+        add_push(gamma, contact_matrix.contacts().contact[l], solution.forces[i], solution.forces[j]);
     });
     parallel_for(solution.forces.size(), [&](std::size_t place) {
         const ContactForce& force = solution.forces[place];
         ContactVelocity& velocity = solution.velocities[place];
         velocity = velocity_of(matrix_.rods()[place], force.force, force.lever);
-        velocities_[place] = {velocity.centre, velocity.turning};
+        velocities_[place] = Wide<Real>(velocity);
     });
 }
 
@@ -154,7 +135,7 @@ void Sweeper<Real>::fill() {
         append(
             colours_[k].singles, new_contacts_[k].singles,
             [&](std::uint32_t l) { return b_[l] < 0.0 || start_[l] > 0.0; },
-            [&](std::uint32_t l) { return contact_of<Real>(l); });
+            [&](std::uint32_t l) { return contact_of(l); });
         append(
             colours_[k].pairs, new_contacts_[k].pairs, [](const auto&) { return true; },
             [&](const auto& contacts) { return pair_of(contacts.first, contacts.second); });
@@ -162,25 +143,24 @@ void Sweeper<Real>::fill() {
 }
 
 template <class Real>
-template <class ContactReal>
-SweptContact<ContactReal> Sweeper<Real>::contact_of(std::uint32_t l) const {
+SweptContact<Real> Sweeper<Real>::contact_of(std::uint32_t l) const {
     const auto [i, j] = matrix_.contact_matrix().ends()[l];
-    const Column column = column_of(matrix_.contact_matrix(), l);
-    const auto answer = [&](std::uint32_t place, const ContactForce& force) {
-        const ContactVelocity velocity = velocity_of(matrix_.rods()[place], force.force, force.lever);
-        return Wide<ContactReal>{velocity.centre, velocity.turning};
+    ContactForce on_i, on_j;
+    add_push(1.0, matrix_.contact_matrix().contacts().contact[l], on_i, on_j);
+    const auto answer = [&](std::uint32_t place, const ContactForce& to) {
+        return Wide<Real>(velocity_of(matrix_.rods()[place], to.force, to.lever));
     };
     const double diagonal = matrix_.diagonal()[l];
-    SweptContact<ContactReal> contact;
-    contact.column_i = {column.i.force, column.i.lever};
-    contact.column_j = {column.j.force, column.j.lever};
-    contact.answer_i = answer(i, column.i);
-    contact.answer_j = answer(j, column.j);
-    contact.b = static_cast<ContactReal>(b_[l]);
-    contact.gamma = static_cast<ContactReal>(start_[l]);
-    contact.compliance = static_cast<ContactReal>(matrix_.compliance(l));
-    contact.diagonal = static_cast<ContactReal>(diagonal);
-    contact.inverse_diagonal = static_cast<ContactReal>(diagonal > 0.0 ? 1.0 / diagonal : 0.0);
+    SweptContact<Real> contact;
+    contact.column_i = Wide<Real>(on_i);
+    contact.column_j = Wide<Real>(on_j);
+    contact.answer_i = answer(i, on_i);
+    contact.answer_j = answer(j, on_j);
+    contact.b = static_cast<Real>(b_[l]);
+    contact.gamma = static_cast<Real>(start_[l]);
+    contact.compliance = static_cast<Real>(matrix_.compliance(l));
+    contact.diagonal = static_cast<Real>(diagonal);
+    contact.inverse_diagonal = static_cast<Real>(diagonal > 0.0 ? 1.0 / diagonal : 0.0);
     contact.i = i;
     contact.j = j;
     contact.number = l;
@@ -189,16 +169,25 @@ SweptContact<ContactReal> Sweeper<Real>::contact_of(std::uint32_t l) const {
 
 template <class Real>
 SweptPair Sweeper<Real>::pair_of(std::uint32_t first, std::uint32_t count) const {
+    const auto [i, j] = matrix_.contact_matrix().ends()[first];
     SweptPair pair;
     pair.count = count;
-    for (std::uint32_t a = 0; a < count; ++a) pair.contact[a] = contact_of<double>(first + a);
+    pair.i = i;
+    pair.j = j;
+    pair.first = first;
     for (std::uint32_t a = 0; a < count; ++a) {
-        const auto& of_a = pair.contact[a];
-        for (std::uint32_t c = 0; c < count; ++c) {
-            const auto& of_c = pair.contact[c];
-            pair.matrix[a][c] = sum_of_products(of_a.column_i, of_c.answer_i, of_a.column_j, of_c.answer_j);
-        }
-        pair.matrix[a][a] += of_a.compliance;
+        const std::uint32_t l = first + a;
+        const Contact& contact = matrix_.contact_matrix().contacts().contact[l];
+        pair.points[a] = {contact.normal, contact.arm_i, contact.arm_j, b_[l], start_[l], matrix_.compliance(l)};
+    }
+    for (std::uint32_t c = 0; c < count; ++c) {
+        ContactForce on_i, on_j;
+        add_push(1.0, pair.points[c], on_i, on_j);
+        if (i == j) on_i = on_j = {on_i.force + on_j.force, on_i.lever + on_j.lever};  // own image: one rod feels both
+        const ContactVelocity of_i = velocity_of(matrix_.rods()[i], on_i.force, on_i.lever);
+        const ContactVelocity of_j = velocity_of(matrix_.rods()[j], on_j.force, on_j.lever);
+        for (std::uint32_t a = 0; a < count; ++a) pair.matrix[a][c] = gap_rate(pair.points[a], of_i, of_j);
+        pair.matrix[c][c] += pair.points[c].compliance;
     }
     return pair;
 }
@@ -207,15 +196,13 @@ SweptPair Sweeper<Real>::pair_of(std::uint32_t first, std::uint32_t count) const
 template <class Real>
 template <class Item>
 void Sweeper<Real>::find_awake(Group<Item>& group) {
-    const auto is_awake = [&](auto contacts) {
+    const auto is_awake = [&](const Item& item) {
         const auto moves = [&](std::uint32_t place) { return static_cast<double>(stirred_[place]) > quiet_velocity_; };
-        if (!stirred_.empty() && !moves(contacts.front().i) && !moves(contacts.front().j)) return false;
-        return std::any_of(contacts.begin(), contacts.end(), [&](const auto& contact) {
-            return contact.gamma > 0 || contact.gap_velocity(velocities_.data()) < drowsy_velocity_;
-        });
+        if (!stirred_.empty() && !moves(item.i) && !moves(item.j)) return false;
+        return may_push(item, velocities_.data(), drowsy_velocity_);
     };
     std::vector<std::uint8_t> awake(group.items.size());
-    parallel_for(awake.size(), [&](std::size_t k) { awake[k] = is_awake(contacts_of(group.items[k])) ? 1 : 0; });
+    parallel_for(awake.size(), [&](std::size_t k) { awake[k] = is_awake(group.items[k]) ? 1 : 0; });
     std::size_t front = 0;
     for (std::size_t back = awake.size();;) {
         while (front < back && awake[front] == 1) ++front;
@@ -226,14 +213,12 @@ void Sweeper<Real>::find_awake(Group<Item>& group) {
     group.awake = front;
 }
 
-/// Calls body(contact) for all; those of a colour in parallel.
+/// Calls body(number, force) for all contacts; those of a colour in parallel.
 template <class Real>
 template <class Body>
-void Sweeper<Real>::for_all_contacts(Body&& body) {
+void Sweeper<Real>::for_all_forces(Body&& body) {
     const auto pass = [&](auto items) {
-        parallel_for(items.size(), [&](std::size_t k) {
-            for (const auto& contact : contacts_of(items[k])) body(contact);
-        });
+        parallel_for(items.size(), [&](std::size_t k) { for_forces(items[k], body); });
     };
     for (Colour& colour : colours_) {
         pass(colour.singles.all());

@@ -59,13 +59,12 @@ private:
 
     void colour_pairs();
     void fill();
-    template <class ContactReal>
-    SweptContact<ContactReal> contact_of(std::uint32_t l) const;
+    SweptContact<Real> contact_of(std::uint32_t l) const;
     SweptPair pair_of(std::uint32_t first, std::uint32_t count) const;
     template <class Item>
     void find_awake(Group<Item>& group);
     template <class Body>
-    void for_all_contacts(Body&& body);
+    void for_all_forces(Body&& body);
 
     const DelassusOperator& matrix_;
     const std::vector<double>& b_;

@@ -1,38 +1,39 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
 
-#include "jostle/math/vec3.hpp"
+#include "jostle/simulation/delassus_operator.hpp"
 #include "jostle/simulation/pair_problem.hpp"
 
 namespace jostle {
 
-/// Centre and turning of a rod's velocity, or force and lever on it, side by side: as wide as a vector register.
+/// Centre and turning of a rod's velocity, or force and lever on it, side by side: a vector register of the compiler's,
+/// which finds no vectors by itself in loops of eight.
 template <class Real>
 struct alignas(8 * sizeof(Real)) Wide {
-    std::array<Real, 8> value{};  // 0-2 centre, 3-5 turning, the rest 0
+    using Lanes [[gnu::vector_size(8 * sizeof(Real))]] = Real;
+    Lanes lanes{};  // 0-2 centre, 3-5 turning, the rest 0
 
     Wide() = default;
-    Wide(const Vec3& a, const Vec3& b)
-        : value{static_cast<Real>(a.x), static_cast<Real>(a.y), static_cast<Real>(a.z),
-                static_cast<Real>(b.x), static_cast<Real>(b.y), static_cast<Real>(b.z)} {}
-    Vec3 first() const { return {value[0], value[1], value[2]}; }
-    Vec3 second() const { return {value[3], value[4], value[5]}; }
+    explicit Wide(const ContactForce& force) : Wide(force.force, force.lever) {}
+    explicit Wide(const ContactVelocity& velocity) : Wide(velocity.centre, velocity.turning) {}
+    ContactVelocity velocity() const { return {{lanes[0], lanes[1], lanes[2]}, {lanes[3], lanes[4], lanes[5]}}; }
 
-    template <class Other>
-    void add(Other factor, const Wide<Other>& other) {
-        for (std::size_t k = 0; k < 8; ++k) value[k] += static_cast<Real>(factor * other.value[k]);
-    }
+private:
+    Wide(const Vec3& a, const Vec3& b)
+        : lanes{static_cast<Real>(a.x), static_cast<Real>(a.y), static_cast<Real>(a.z),
+                static_cast<Real>(b.x), static_cast<Real>(b.y), static_cast<Real>(b.z)} {}
 };
 
-template <class Real, class Other>
-Real sum_of_products(const Wide<Real>& a, const Wide<Other>& b, const Wide<Real>& c, const Wide<Other>& d) {
-    std::array<Real, 8> t;
-    for (std::size_t k = 0; k < 8; ++k)
-        t[k] = a.value[k] * static_cast<Real>(b.value[k]) + c.value[k] * static_cast<Real>(d.value[k]);
-    return ((t[0] + t[4]) + (t[2] + t[6])) + ((t[1] + t[5]) + (t[3] + t[7]));
+/// a.b + c.d, in the same order for vector registers of any size.
+template <class Real>
+Real sum_of_products(const Wide<Real>& a, const Wide<Real>& b, const Wide<Real>& c, const Wide<Real>& d) {
+    const typename Wide<Real>::Lanes t = a.lanes * b.lanes + c.lanes * d.lanes;
+    const auto u = __builtin_shufflevector(t, t, 0, 1, 2, 3) + __builtin_shufflevector(t, t, 4, 5, 6, 7);
+    return (u[0] + u[2]) + (u[1] + u[3]);
 }
 
 /// One contact as a sweep needs it: its column of D, and of M D, for each of its two rods.
@@ -46,39 +47,72 @@ struct SweptContact {
     std::uint32_t i = 0, j = 0;  ///< places
     std::uint32_t number = 0;    ///< of the contact
 
-    template <class Velocity>
-    Real gap_velocity(const Wide<Velocity>* velocities) const {
+    Real gap_velocity(const Wide<Real>* velocities) const {
         return b + compliance * gamma + sum_of_products(column_i, velocities[i], column_j, velocities[j]);
     }
-    template <class Velocity>
-    void push(Real change, Wide<Velocity>* velocities) {
+    void push(Real change, Wide<Real>* velocities) {
         gamma += change;
-        velocities[i].add(change, answer_i);
-        velocities[j].add(change, answer_j);
+        velocities[i].lanes += change * answer_i.lanes;
+        velocities[j].lanes += change * answer_j.lanes;
     }
 };
 
-/// A pair that touches at two or three points, and their part of A.
+/// A pair that touches at two or three points, and their part of A. In few bytes: what depends on its rods is worked
+/// out anew, as sweeps over many such pairs take as long as it takes to read them.
 struct SweptPair : PairMatrix {
-    std::array<SweptContact<double>, most_points> contact;
+    struct Point {
+        Vec3 normal;
+        double arm_i, arm_j;
+        double b, gamma, compliance;  // as those of a SweptContact
+
+        double gap_velocity(const ContactVelocity& rod_i, const ContactVelocity& rod_j) const {
+            return b + compliance * gamma + gap_rate(*this, rod_i, rod_j);
+        }
+    };
+    std::uint32_t i, j;   ///< places
+    std::uint32_t first;  ///< number of the first contact; those of the others follow
+    std::array<Point, most_points> points;
+
+    std::span<const Point> touching() const { return std::span(points).first(count); }
 };
 
-/// The contacts of an item: of a pair that touches at one point, as most do, or at more.
+/// Whether the contacts push, or a gap opens by less than `limit`.
 template <class Real>
-std::span<SweptContact<Real>> contacts_of(SweptContact<Real>& single) {
-    return {&single, 1};
+bool may_push(const SweptContact<Real>& contact, const Wide<Real>* velocities, double limit) {
+    return contact.gamma > 0 || contact.gap_velocity(velocities) < limit;
 }
-inline std::span<SweptContact<double>> contacts_of(SweptPair& pair) {
-    return {pair.contact.data(), pair.count};
+template <class Real>
+bool may_push(const SweptPair& pair, const Wide<Real>* velocities, double limit) {
+    const ContactVelocity i = velocities[pair.i].velocity(), j = velocities[pair.j].velocity();
+    return std::ranges::any_of(pair.touching(), [&](const SweptPair::Point& point) {
+        return point.gamma > 0.0 || point.gap_velocity(i, j) < limit;
+    });
 }
 
+/// Calls body(number of the contact, its force) for each.
+template <class Real, class Body>
+void for_forces(const SweptContact<Real>& contact, Body&& body) {
+    body(contact.number, contact.gamma);
+}
+template <class Body>
+void for_forces(const SweptPair& pair, Body&& body) {
+    for (std::uint32_t a = 0; a < pair.count; ++a) body(pair.first + a, pair.points[a].gamma);
+}
+
+/// What sweeps know of the rods with contacts (places).
+template <class Real>
+struct Places {
+    const DelassusOperator::Rod* rods;
+    Wide<Real>* velocities;
+    float* stirred;  ///< the largest change of a gap velocity by a contact of each, or null
+};
+
 /// Solves the contact problem of each in turn, over-relaxed, with all other forces as they are, and keeps the
-/// velocities up to date. Returns the largest change of a gap velocity by the contact's own force; unless `stirred` is
-/// null, raises that of each rod (places) to the largest such change of its contacts. No two may share a rod if their
-/// order is not to matter.
-double sweep_over(std::span<SweptContact<float>> contacts, double omega, Wide<float>* velocities, float* stirred);
-double sweep_over(std::span<SweptContact<double>> contacts, double omega, Wide<double>* velocities, float* stirred);
-double sweep_over(std::span<SweptPair> pairs, double omega, Wide<float>* velocities, float* stirred);
-double sweep_over(std::span<SweptPair> pairs, double omega, Wide<double>* velocities, float* stirred);
+/// velocities up to date. Returns the largest change of a gap velocity by the contact's own force; raises `stirred` to
+/// it. No two may share a rod if their order is not to matter.
+double sweep_over(std::span<SweptContact<float>> contacts, double omega, const Places<float>& places);
+double sweep_over(std::span<SweptContact<double>> contacts, double omega, const Places<double>& places);
+double sweep_over(std::span<SweptPair> pairs, double omega, const Places<float>& places);
+double sweep_over(std::span<SweptPair> pairs, double omega, const Places<double>& places);
 
 }  // namespace jostle
