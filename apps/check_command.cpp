@@ -32,7 +32,7 @@ struct Population {
 Population population_of(const Scene& scene, const std::optional<Rods>& from_file) {
     if (from_file) return {*from_file, static_cast<double>(from_file->size()), total_volume(*from_file)};
     Rods rods;
-    if (rods_are_alike(scene))
+    if (rods_are_alike(scene) && scene.motion.self_propulsion_deviation == 0.0)
         rods.push_back(0, {}, {1, 0, 0}, scene.rods.length, scene.rods.diameter);
     else
         for (const RodSize& size : rod_sizes(scene))
@@ -42,7 +42,7 @@ Population population_of(const Scene& scene, const std::optional<Rods>& from_fil
 
 /// Rough costs, from docs/performance.md: a step of one rod takes longer where there are more contacts.
 double seconds_per_rod_and_step(double volume_fraction) {
-    return (0.35 + 5.0 * volume_fraction + 8.0 * volume_fraction * volume_fraction) * 1e-6;
+    return (0.15 + 1.6 * volume_fraction + 12.0 * volume_fraction * volume_fraction) * 1e-6;
 }
 double bytes_per_rod(double volume_fraction) {
     return 480.0 + 2000.0 * volume_fraction + 9000.0 * volume_fraction * volume_fraction;
@@ -102,7 +102,10 @@ void print_motion(const Scene& scene, const Mobility& mobility, const Rods& rods
     }
     const double speed = scene.motion.self_propulsion;
     if (speed != 0.0) {
-        print("propelled per step / D", fmt::format("{:.3g}", std::fabs(speed) * dt / diameter));
+        double farthest = 0.0;
+        for (const double own : SelfPropulsion(swimming_of(scene)).speeds(rods, scene.seed))
+            farthest = std::max(farthest, std::fabs(own) * dt / diameter);
+        print("propelled per step / D", fmt::format("{:.3g}", farthest));
         if (kT > 0.0 && rods.length[0] > 0.0)
             print("U_0/(L D_R)", fmt::format("{:.4g}", speed / (rods.length[0] * rotation)));
     }
@@ -152,10 +155,11 @@ void print_cost(const Scene& scene, const Population& population, const Box& box
     const double steps = in_rows(scene.time.equilibration.value_or(0.25 * scene.time.production)) +
                          std::max(every, in_rows(scene.time.production));
     const PopulationGrowth growth = population_growth(scene, steps * dt);
-    const double count = population.count * growth.end;
+    const double count = population.count * growth.end, filled = phi * growth.end;
+    const bool colony = scene.growth.rate > 0.0 && !box.is_periodic();  // as dense as cells lie, whatever the box
+    const double densest = colony ? crowded : std::max(phi, std::min(filled, crowded));
     if (scene.growth.rate > 0.0) {
         print("N in the end, about", fmt::format("{:.3g}", count));
-        const double filled = phi * growth.end;
         if (box.is_periodic())
             print("phi in the end, about",
                   fmt::format("{:.3g}{}", filled, filled <= crowded ? "" : ": cells have no room to grow so many"));
@@ -165,10 +169,13 @@ void print_cost(const Scene& scene, const Population& population, const Box& box
         scene.output.trajectory_every > 0 ? steps / static_cast<double>(scene.output.trajectory_every) : 0.0;
     print("steps", fmt::format("{:.6g}{}", steps,
                                scene.time.equilibration ? "" : " (if equilibration takes a quarter of production)"));
-    print("memory, about", fmt::format("{:.0f} MB", 20.0 + count * bytes_per_rod(phi) / 1e6));
+    print("memory, about", fmt::format("{:.0f} MB", 20.0 + count * bytes_per_rod(densest) / 1e6));
     print("disk, about", fmt::format("{:.1f} MB", (rows * 400.0 + frames * count * 52.0 + count * 250.0) / 1e6));
+    const double on_the_way = 0.5 * (phi + densest);  // of exponential growth, mean over the cells
     print("time on one thread, about",
-          fmt::format("{:.3g} s", steps * population.count * growth.mean * seconds_per_rod_and_step(phi)));
+          colony
+              ? "not known: the larger a colony, the longer its contact forces take to find"
+              : fmt::format("{:.3g} s", steps * population.count * growth.mean * seconds_per_rod_and_step(on_the_way)));
 }
 
 ExitCode check(const Scene& scene, const std::string& scene_path) {

@@ -18,6 +18,7 @@
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/simulation/assemble.hpp"
 #include "jostle/simulation/largest_overlap.hpp"
+#include "jostle/simulation/rod_size.hpp"
 #include "jostle/simulation/step_failure.hpp"
 #include "post_mortem.hpp"
 #include "progress_line.hpp"
@@ -99,10 +100,12 @@ public:
         while (!length_.is_over(files_.series())) {
             if (simulation_.rods().size() == 0) return die_out();
             StepReport report;
+            report.step = simulation_.clock().step;
+            report.time = simulation_.clock().time;
             try {
                 report = simulation_.step();
             } catch (const InputError& error) {  // cells have become what no mobility, or no id, is there for
-                report.step = simulation_.clock().step;
+                report.contacts = simulation_.contacts().size();
                 return give_up(report, error.what(), "");
             }
             longest_step_ = std::max(longest_step_, std::accumulate(report.seconds.begin(), report.seconds.end(), 0.0));

@@ -1,6 +1,5 @@
 #include "run_record.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <array>
@@ -79,5 +78,5 @@ void RunRecord::write(const jostle::Simulation& simulation, const std::string& e
                                   {"last_step", simulation.clock().step},
                                   {"wall_seconds", seconds_now() - began_},
                                   {"exit_reason", exit_reason}});
-    jostle::replace_file(path_, record.dump(2) + "\n");
+    jostle::replace_file(path_, record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }

@@ -203,7 +203,9 @@ ExitCode stress_command(const StressOptions& options) {
     const ContactStress stress = contact_stress(second_moments, question.contacts.contacts, question.convention);
     if (!options.per_body.empty()) replace_file(options.per_body, per_body_csv(question, stress));
     if (options.json)
-        std::printf("%s\n", in_json(question, stress, options.convention).dump(2).c_str());
+        std::printf(
+            "%s\n",
+            in_json(question, stress, options.convention).dump(2, ' ', false, Json::error_handler_t::replace).c_str());
     else
         print_text(question, stress, options.convention);
     return ExitCode::done;

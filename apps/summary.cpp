@@ -8,7 +8,7 @@
 #include "jostle/io/series_columns.hpp"
 #include "jostle/io/units.hpp"
 #include "jostle/math/symmetric_eigen.hpp"
-#include "jostle/simulation/step_failure.hpp"
+#include "jostle/simulation/rod_size.hpp"
 #include "jostle/statistics/equilibration.hpp"
 #include "jostle/statistics/jackknife.hpp"
 #include "jostle/statistics/time_series.hpp"
@@ -130,6 +130,21 @@ Json mean_principal_stresses(const Columns& stress) {
     std::array<double, 9> mean{};
     for (std::size_t k = 0; k < 9; ++k) mean[k] = mean_of(stress[k]);
     return principal_stresses(stress_of(mean));
+}
+
+void set_null(Json& entry) {
+    if (!entry.is_array()) entry = nullptr;
+    for (Json& element : entry) set_null(element);
+}
+
+/// Takes away all error bars: the means are of no state that lasts.
+void withhold_errors(Json& entry, const std::string& reason) {
+    if (!entry.is_object()) return;
+    if (entry.contains("standard_error")) {
+        set_null(entry["standard_error"]);
+        entry["no_standard_error_because"] = reason;
+    }
+    for (Json& part : entry) withhold_errors(part, reason);
 }
 
 bool all_alike(const Rods& rods) {
@@ -255,6 +270,9 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     if (thermal && free && !grows && all_alike(rods))
         oracles["anisotropy"] = anisotropy_oracle(series, first, rods, stress);
     summary["oracles"] = oracles;
+    const Average number = average_of("N");
+    if (number.standard_deviation > 0.0 && !number.standard_error)
+        withhold_errors(summary, "The number of cells changes throughout: averages are of no state that lasts.");
     return summary;
 }
 

@@ -2,13 +2,10 @@
 
 #include <cstdio>
 
-#include "jostle/error/input_error.hpp"
 #include "jostle/io/checkpoint.hpp"
 #include "jostle/io/checksum.hpp"
 #include "jostle/io/h5md_writer.hpp"
 #include "jostle/io/run_directory.hpp"
-#include "jostle/io/scene_reader.hpp"
-#include "jostle/io/series_columns.hpp"
 #include "jostle/io/series_file.hpp"
 #include "jostle/io/trajectory_journal.hpp"
 

@@ -19,7 +19,8 @@ namespace {
 const char* const usage =
     "usage: benchmark_step [--state NAME]... [--count N]... [--threads T]... [--steps S]\n"
     "Measures every combination; without --state all states, without --count 2000 and 20000, without --threads 1.\n"
-    "Times are medians over the steps. --steps: 0 (default) as many as take about a second, at least 16.\n";
+    "Times are means over the steps; median_step_ns is the median. --steps: 0 (default) as many as take about a "
+    "second, at least 16.\n";
 
 struct Options {
     std::vector<std::string> states;

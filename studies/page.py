@@ -19,9 +19,11 @@ HEAD = """# Validation
 Is the pressure right, is the anisotropy of the stress, and what does a time step cost? Every figure and number here was made by
 
     studies/run all
+    studies/run self_propelled
+    studies/run colony
     studies/run page
 
-from runs of the program itself; one study alone by `studies/run NAME`, in a minute or less with `--quick`. Each leaves its runs, a CSV, PNG, SVG and a
+from runs of the program itself; one study alone by `studies/run NAME`, in a minute or less with `--quick` (self_propelled: half an hour). Each leaves its runs, a CSV, PNG, SVG and a
 verdict in studies/results/NAME, and exits 0 only if every check has passed. References: [studies/reference](../../studies/reference/README.md).
 """
 

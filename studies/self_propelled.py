@@ -98,6 +98,8 @@ def evaluate(report, runs_by_name, quick):
                       f"{(residuals**2 / shape.error**2).sum():.1f}"])
         report.compare(f"L/D = {shape.beta}, no swimming: against the virial series", (shape.value[0], shape.error[0]),
                        (shape.virial, 0.0), 0.01)
+        report.compare(f"L/D = {shape.beta}, intercept of the line: against the virial series", (intercept, errors[0]),
+                       (shape.virial, 0.0), 0.01)
         beyond = abs(formula[-1] - shape.value[-1]) / shape.error[-1]
         report.require(f"L/D = {shape.beta}: the effective length is off at U_0 = {SPEEDS[-1]:g} L D_R, in standard errors",
                        beyond, lower=5)

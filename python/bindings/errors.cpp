@@ -1,3 +1,5 @@
+#include <string_view>
+
 #include "bindings/bindings.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/io/durable_file.hpp"
@@ -19,15 +21,21 @@ constexpr const char* input_error_text =
     "(where the value stands, \"\" and 0 if it comes from no file).";
 constexpr const char* disk_error_text = "A file could not be read or written.";
 
+/// What users write, and names of files, need not be UTF-8.
+py::str text(std::string_view bytes) {
+    return py::reinterpret_steal<py::str>(
+        PyUnicode_DecodeUTF8(bytes.data(), static_cast<py::ssize_t>(bytes.size()), "replace"));
+}
+
 void raise(const InputError& error) {
     const InputError::Parts& parts = error.parts();
-    py::object exception = py::handle(input_error)(error.what());
-    exception.attr("key") = parts.key;
-    exception.attr("value") = parts.value;
-    exception.attr("problem") = parts.problem;
-    exception.attr("allowed") = parts.allowed;
-    exception.attr("suggestion") = parts.suggestion;
-    exception.attr("file") = parts.place.file;
+    py::object exception = py::handle(input_error)(text(error.what()));
+    exception.attr("key") = text(parts.key);
+    exception.attr("value") = text(parts.value);
+    exception.attr("problem") = text(parts.problem);
+    exception.attr("allowed") = text(parts.allowed);
+    exception.attr("suggestion") = text(parts.suggestion);
+    exception.attr("file") = text(parts.place.file);
     exception.attr("line") = parts.place.file.empty() ? 0 : parts.place.line;
     exception.attr("column") = parts.place.file.empty() ? 0 : parts.place.column;
     PyErr_SetObject(input_error, exception.ptr());
@@ -39,7 +47,7 @@ void translate(std::exception_ptr pointer) {
     } catch (const InputError& error) {
         raise(error);
     } catch (const DiskError& error) {
-        PyErr_SetString(disk_error, error.what());
+        PyErr_SetObject(disk_error, text(error.what()).ptr());
     }
 }
 

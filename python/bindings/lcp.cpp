@@ -1,4 +1,3 @@
-#include <optional>
 
 #include "bindings/arrays.hpp"
 #include "bindings/bindings.hpp"

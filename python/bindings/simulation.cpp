@@ -56,7 +56,13 @@ void SimulationInPython::step() {
     const Step under_way(*this);
     {
         const py::gil_scoped_release release;
-        report_ = simulation_.step();
+        const std::uint64_t before = simulation_.clock().step;
+        try {
+            report_ = simulation_.step();
+        } catch (...) {
+            broken_ = simulation_.clock().step != before;
+            throw;
+        }
         failure_ = step_failure(*report_, scene_.scene, simulation_.rods()).value_or("");
         if (report_->status != LcpStatus::converged) return;
         sums_.add(*report_, simulation_);
@@ -98,6 +104,12 @@ void SimulationInPython::require_rest() const {
 
 void SimulationInPython::require_between_steps() const {
     if (stepping_) throw std::runtime_error("this simulation is in the middle of a step");
+    require_whole();
+}
+
+void SimulationInPython::require_whole() const {
+    if (broken_)
+        throw std::runtime_error("the last step of this simulation ended half way: go on from its last checkpoint");
 }
 
 const Simulation& SimulationInPython::simulation() const {
@@ -184,6 +196,7 @@ py::array SimulationInPython::series() const {
 }
 
 void SimulationInPython::save(const std::string& folder) const {
+    require_whole();
     write_checkpoint(folder, checkpoint_of(simulation(), sums_, to_toml(scene_.scene)));
 }
 

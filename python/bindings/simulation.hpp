@@ -13,14 +13,14 @@ namespace jostle::python {
 /// A simulation with the rows of its series, as `jostle run` keeps them; makes its steps without the interpreter.
 ///
 /// Between steps it is whole, whatever ended the last one: what belongs to a step (rods, clock, sums, row) is done in
-/// one go, and signals are looked at only after it.
+/// one go, and signals are looked at only after it. Where a step throws once rods have moved, no other is made.
 class SimulationInPython {
 public:
     explicit SimulationInPython(SceneInPython scene);
     SimulationInPython(SceneInPython scene, Checkpoint checkpoint);
 
-    /// One step. Throws std::runtime_error where a step is under way or no rods are left. A step that fails is told by
-    /// the report; where its contacts could not be resolved nothing has changed.
+    /// One step. Throws std::runtime_error where a step is under way, one has ended half way, or no rods are left. A
+    /// step that fails is told by the report; where its contacts could not be resolved nothing has changed.
     void step();
     /// At most so many steps, until no rods are left or one fails; false if one failed. Throws what signal handlers
     /// raise.
@@ -46,6 +46,7 @@ private:
     class Step;
     void require_rest() const;
     void require_between_steps() const;
+    void require_whole() const;
     void write_row();
 
     SceneInPython scene_;
@@ -56,6 +57,7 @@ private:
     std::shared_ptr<RodsInOrder> rods_;    ///< empty until they are asked for
     std::optional<StepReport> report_;
     std::string failure_;
+    bool broken_ = false;  ///< a step ended half way, as where cells become what no mobility is there for
     std::optional<std::thread::id> stepping_;  ///< the thread that makes a step; read and written with the interpreter
 };
 

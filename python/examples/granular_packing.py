@@ -26,8 +26,9 @@ simulation = jostle.Simulation(scene)
 while len(simulation.contacts) == 0 or (simulation.contacts["force"] > 0).sum() < 350:
     rods = simulation.rods  # as they are before the step, and stay
     simulation.step()
+length = simulation.rods.length  # rods lengthen as a step begins
 contacts = simulation.contacts[simulation.contacts["force"] > 0]
-print(f"{len(rods)} rods of length {rods.length.mean():.2f}, {len(contacts)} contacts with a force")
+print(f"{len(rods)} rods of length {length.mean():.2f}, {len(contacts)} contacts with a force")
 
 # ## The list, as another program might write it
 #
@@ -40,7 +41,7 @@ separation = rods.centre[second] + contacts["image"] * simulation.edges - rods.c
 point = (contacts["arm_i"][:, None] * rods.axis[first]
          + (0.5 * rods.diameter[first] + 0.5 * contacts["gap"])[:, None] * contacts["normal"])
 force = contacts["force"][:, None] * contacts["normal"]
-np.savetxt(folder / "bodies.csv", np.column_stack((rods.centre, rods.axis, rods.length, rods.diameter)), delimiter=",",
+np.savetxt(folder / "bodies.csv", np.column_stack((rods.centre, rods.axis, length, rods.diameter)), delimiter=",",
            header="x,y,z,nx,ny,nz,length,diameter", comments="")
 np.savetxt(folder / "contacts.csv", np.column_stack((first, second, point, separation, force)), delimiter=",",
            header="first,second,px,py,pz,sx,sy,sz,fx,fy,fz", comments="")

@@ -33,7 +33,7 @@ class StepReport:
     step, time : number of the step, and when it began
     rods, contacts, active_contacts : how many took part; contacts that might touch, and those with a force
     converged, residual, iterations, solves : of the contact problem
-    max_overlap : length, largest overlap of two rods when the step began
+    max_overlap : length, largest overlap of two rods when the step began, after growth
     collision_virial, spring_virial : (3, 3) arrays, volume times the stress of collisions, and of springs
     seconds : dict, wall time of the five parts of the step
     """
@@ -240,7 +240,8 @@ class Simulation:
 
     @property
     def contacts(self):
-        """Contacts of the last step that has been made, as a structured array, with the rods as they were before it.
+        """Contacts of the last step that has been made, as a structured array, with the rods as they were before it, but for growth: cells
+        lengthen as a step begins.
 
         id_i < id_j; image (3), box edges by which j is displaced; force >= 0; gap, length, before the step; normal (3),
         unit vector from i to j; arm_i, arm_j, length, along the axes from the centres.

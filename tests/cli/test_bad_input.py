@@ -68,6 +68,7 @@ GROWTH = [
     ({"stall_force": 0.0}, "is zero", "greater than 0"),
     ({"death_rate": -1.0}, "is negative", "at least 0"),
     ({"division_every": 0}, "is outside the allowed range", "at least 1"),
+    ({"division_every": 400}, "lets cells grow by 0.8 between two looks", "they add 3", "at most 375"),
 ]
 
 
@@ -166,6 +167,32 @@ def test_slender_daughters_of_cells_that_divide_early(tmp_path, division):
     assert command(tmp_path, "check", "scene.toml").returncode == DONE
     write_scene(tmp_path, changed(scene, growth={**growth, "division_deviation": 0.15}))
     require_one_line(command(tmp_path, "check", "scene.toml"), "makes daughters as short as L/D = ", "finite_aspect_ratio")
+
+
+@pytest.mark.parametrize("diameters, model, parts", [
+    ((1.0, 3.0), "finite_aspect_ratio", ["growth.division_length = 2.9: is not above what two daughters need", "greater than 3"]),
+    ((1.0, 1.2), "slender_body", ["makes daughters as short as L/D = 0.7083", "finite_aspect_ratio"]),
+    ((1.0, 0.02), "finite_aspect_ratio", ["growth.rate = 0.2: lengthens cells by 0.004", "a tenth of the diameter"]),
+])
+def test_growth_of_cells_from_a_file(tmp_path, diameters, model, parts):
+    """What holds for cells of diameter 1 need not for all of the file."""
+    lines = [f"{x},5,5,0,0,1,2,{diameter}" for x, diameter in zip((2, 7), diameters)]
+    (tmp_path / "rods.csv").write_text("x,y,z,nx,ny,nz,length,diameter\n" + "\n".join(lines) + "\n")
+    write_scene(tmp_path, changed(RODS, box={"volume_fraction": None, "edges": [30.0, 30.0, 30.0]}, mobility={"model": model},
+                                  rods={"count": None, "start": "file", "file": "rods.csv"},
+                                  growth={"rate": 0.2, "division_length": 2.9, "division_every": 1}))
+    for name in ("check", "run"):
+        require_one_line(command(tmp_path, name, "scene.toml"), *parts)
+
+
+@pytest.mark.parametrize("growth", [None, {"rate": 0.1, "division_length": 5.0}])
+def test_fastest_swimmers(tmp_path, growth):
+    """Of 50 the fastest is some two deviations above the mean; of daughters that are to come, four count."""
+    scene = changed(RODS, motion={"self_propulsion": 1.0, "self_propulsion_deviation": 7.0 if growth else 30.0})
+    write_scene(tmp_path, changed(scene, growth=growth) if growth else scene)
+    for name in ("check", "run"):
+        require_one_line(command(tmp_path, name, "scene.toml"), "motion.self_propulsion = ", "takes a rod through others",
+                         "speeds up to 25")
 
 
 @pytest.mark.parametrize("table, key, example", [("rods", "count", "count = 2000"), ("rods", "length", "length = 5.0"),

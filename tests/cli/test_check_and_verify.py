@@ -85,6 +85,25 @@ def test_costs_grow_with_the_run(tmp_path):
     assert small[names[0]].endswith(" MB") and small[names[1]].endswith(" MB") and small[names[2]].endswith(" s")
 
 
+def test_growing_cells(tmp_path):
+    cells = changed(RODS, rods={"count": 50, "length": 1.0}, growth={"rate": 0.5, "division_length": 3.0},
+                    time={"production": 8.0}, box={"volume_fraction": 0.02})
+    _, derived = check(tmp_path, cells)
+    assert number(derived["doubling time"]) == 4.0  # (3 + 1)/2 at rate 0.5
+    assert derived["N in the end, about"] == "200" and derived["phi in the end, about"] == "0.08"
+    _, longer = check(tmp_path, changed(cells, time={"production": 24.0}))
+    assert longer["phi in the end, about"].endswith(": cells have no room to grow so many")
+    _, colony = check(tmp_path, changed(cells, box={"volume_fraction": None, "edges": [99.0, 99.0, 99.0], "periodic": [False, False, False]}))
+    assert "phi in the end, about" not in colony and colony["time on one thread, about"].startswith("not known")
+    _, dying = check(tmp_path, changed(cells, growth={"death_rate": math.log(2.0) / 4.0}))
+    assert dying["N in the end, about"] == "50"
+
+
+def test_the_fastest_swimmer(tmp_path):
+    _, derived = check(tmp_path, changed(RODS, motion={"self_propulsion": 1.0, "self_propulsion_deviation": 1.0}))
+    assert 0.04 < number(derived["propelled per step / D"]) < 0.1  # of 50 rods, some 2.2 deviations above the mean
+
+
 def test_defaults_are_spelled_out(tmp_path):
     """The resolved scene holds every key, means the same, and is what a run keeps."""
     scene, derived = check(tmp_path, changed(RODS, time={"step": None}))

@@ -45,6 +45,9 @@ def test_files_follow_the_number_of_cells(tmp_path):
     summary = json.loads((folder / "summary.json").read_text())
     assert summary["equilibration_time"] == 0.0 and summary["oracles"] == {}
     assert summary["rods"] == alive and mean(folder, "Z") > 1.0
+    # From 10 to some 60 cells: no state of which there could be an error bar.
+    assert summary["Z"]["standard_error"] is None and "number of cells changes" in summary["Z"]["no_standard_error_because"]
+    assert summary["stress_collision"]["standard_error"] == 3 * [3 * [None]]
 
 
 def test_stopped_and_resumed_across_divisions(tmp_path):
@@ -89,6 +92,27 @@ def test_swimmers_from_a_file_that_divide_take_little_memory(tmp_path):
     ids = column(folder / "lineage.csv", "id")
     assert max(ids) > len(ids) + 2
     assert (folder / "checkpoint").stat().st_size < 100000
+
+
+def test_active_stress_goes_on_through_divisions(tmp_path):
+    """A line of cells that swims along x, U_0 = 1, and lengthens: pushes between them add up to none, so that the mean path is that of
+    one cell alone, and the active stress tells how old it is. After every lag that is the same again, divisions or not."""
+    (tmp_path / "rods.csv").write_text("x,y,z,nx,ny,nz\n50,50,50,1,0,0\n")
+    write_scene(tmp_path, {"box": {"edges": [100.0, 100.0, 100.0]},
+                           "rods": {"start": "file", "file": "rods.csv", "length": 2.5},
+                           "mobility": {"model": "slender_body"},
+                           "motion": {"brownian": False, "self_propulsion": 1.0},
+                           "growth": {"rate": 1.0, "division_length": 6.0},
+                           "time": {"step": 0.01, "equilibration": 0.0, "production": 9.0},
+                           "output": {"series_every": 10, "active_stress_lag": 1.0}})
+    series = finish(tmp_path) / "series.csv"
+    time, number, stress = (np.array(column(series, name)) for name in ("time", "N", "stress_active_xx"))
+    assert number[-1] == 4
+    length = 2.5 + np.round(time, 6) % 3.5
+    mobility = (2.0 * np.log(2.0 * length) - 1.0) / (4.0 * np.pi * length)
+    age = stress * 100.0**3 * mobility / number
+    assert np.all(np.isnan(age[:9])) and np.all((age[9:] > 1.0 - 1e-9) & (age[9:] < 2.0))
+    assert np.allclose(age[19:], age[9:-10], atol=1e-6)
 
 
 def test_lines_longer_than_ids_can_tell(tmp_path):

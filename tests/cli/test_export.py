@@ -6,10 +6,13 @@ import shutil
 import subprocess
 import xml.etree.ElementTree as ElementTree
 
+import ase.io
 import gsd.hoomd
 import h5py
 import numpy as np
 import pytest
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 import trajectory_by_hand
 from jostle_command import (DISK, DONE, JOSTLE, RODS, changed, command, finish, flip_bit,
@@ -110,7 +113,23 @@ def require_vtk(folder, expected):
         assert np.array_equal(arrays["length"].ravel(), frame["length"])
         assert np.array_equal(arrays["diameter"].ravel(), frame["diameter"])
         assert np.array_equal(arrays["radius"].reshape(count, 2), np.stack(2 * [frame["diameter"] / 2], axis=1))
+        require_read_by_vtk(folder / entry.get("file"), frame)
     compile((folder / "view.py").read_text(), "view.py", "exec")
+
+
+def require_read_by_vtk(path, frame):
+    """What VTK itself, which ParaView reads files by, makes of it."""
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    assert reader.GetErrorCode() == 0
+    data = reader.GetOutput()
+    assert data.GetNumberOfLines() == data.GetNumberOfCells() == len(frame["id"])
+    ends = vtk_to_numpy(data.GetPoints().GetData()).reshape(-1, 2, 3)
+    assert np.allclose(ends.mean(axis=1), frame["position"], atol=1e-5)
+    assert np.allclose(ends[:, 1] - ends[:, 0], frame["length"][:, None] * frame["orientation"], atol=1e-5)
+    assert np.array_equal(vtk_to_numpy(data.GetCellData().GetArray("id")), frame["id"])
+    assert np.array_equal(vtk_to_numpy(data.GetPointData().GetArray("radius"))[::2], frame["diameter"] / 2)
 
 
 def require_xyz(path, expected, periodic="T T T"):
@@ -132,6 +151,14 @@ def require_xyz(path, expected, periodic="T T T"):
         assert np.array_equal(numbers[:, 10], frame["id"])
         lines = lines[2 + count:]
     assert lines == []
+    read = ase.io.read(path, index=":", format="extxyz")
+    assert len(read) == len(expected)
+    for atoms, frame in zip(read, expected):
+        assert np.allclose(atoms.positions, frame["position"], atol=1e-5)
+        assert np.allclose(atoms.cell.lengths(), frame["edges"])
+        assert " ".join("T" if direction else "F" for direction in atoms.pbc) == periodic
+        assert np.array_equal(atoms.arrays["id"], frame["id"])
+        assert np.allclose(atoms.arrays["aspherical_shape"][:, 2], frame["length"], rtol=1e-6)
 
 
 REQUIRE = {"gsd": require_gsd, "vtk": require_vtk, "xyz": require_xyz}

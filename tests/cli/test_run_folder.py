@@ -165,3 +165,14 @@ def test_one_live_line_on_a_terminal(tmp_path):
     for line in live[1:-1]:
         assert PROGRESS.match(line), repr(line)
     assert "\njostle: stopped at step" in live[-1].replace("\r\n", "\n")
+
+
+def test_names_that_are_not_utf_8(tmp_path):
+    """run.json holds the command line, with a sign in place of what is no text."""
+    write_scene(tmp_path, SPHERES)
+    name = os.fsdecode(b"sc\xe9ne.toml")
+    (tmp_path / "scene.toml").rename(tmp_path / name)
+    result = subprocess.run([JOSTLE, "run", name, "--out", "run", "--quiet"], cwd=tmp_path, capture_output=True, timeout=60)
+    assert result.returncode == DONE and result.stderr == b""
+    assert "sc\ufffdne.toml" in (tmp_path / "run/run.json").read_text(encoding="utf-8")
+    assert b"sound" in subprocess.run([JOSTLE, "verify", "run"], cwd=tmp_path, capture_output=True, timeout=60).stdout

@@ -1,4 +1,5 @@
 import copy
+import os
 from pathlib import Path
 
 import numpy as np
@@ -97,6 +98,9 @@ def test_a_value_that_does_not_fit_changes_nothing(change, message):
     ("rods", "file", "x.csv", "rods.file = x.csv: is not used with rods.start"),
     ("motion", "tumble_rate", 1.0, "motion.tumble_rate = 1: is not used with motion.self_propulsion = 0"),
     ("contact", "overlap_limit", 1e-9, "contact.overlap_limit = 1e-09: is not larger"),
+    ("growth", "death_rate", 3.0, "growth.death_rate = 3: is not used without growth.rate"),
+    ("growth", "daughters", "opposite", "growth.daughters = opposite: is not used without growth.rate"),
+    ("growth", "division_every", 5, "growth.division_every = 5: is not used without growth.rate"),
 ])
 def test_validate(table, key, value, message):
     scene = jostle.Scene(**SMALL)
@@ -119,6 +123,21 @@ def test_errors_have_the_text_of_the_command(tmp_path, monkeypatch, text):
     assert result.returncode == 2
     assert result.stderr == f"jostle: {raised.value}\n"
     assert raised.value.file == "bad.toml" and raised.value.line > 0
+
+
+def test_soft_rods_have_no_contact_problem():
+    scene = jostle.Scene(**{**SMALL, "contact": {"model": "wca"}})
+    scene.validate()
+    for table, key, value in (("solver", "method", "bbpgd"), ("solver", "tolerance", 1e-3), ("contact", "brownian_correction", False)):
+        changed = scene.copy()
+        setattr(getattr(changed, table), key, value)
+        with pytest.raises(jostle.InputError, match=f"{table}.{key} = .*: is not used with contact.model"):
+            changed.validate()
+
+
+def test_names_that_are_not_utf_8():
+    with pytest.raises(jostle.InputError, match="none\ufffd.toml"):
+        jostle.Scene.from_toml(os.fsdecode(b"none\xe9.toml"))
 
 
 def test_errors_tell_their_parts():

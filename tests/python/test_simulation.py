@@ -365,6 +365,48 @@ def test_motions_that_fail_leave_the_simulation_whole(rods, motion, error, messa
     assert same(state(simulation), state(whole)) and np.array_equal(simulation.series, whole.series)
 
 
+def test_a_motion_that_fails_leaves_cells_as_long_as_they_were(cells):
+    fails = [True]
+    simulation = jostle.Simulation(cells, lambda given, clock: 1 / 0 if fails[0] else 0 * given.centre)
+    before = state(simulation)
+    with pytest.raises(ZeroDivisionError):
+        simulation.step()
+    assert same(state(simulation), before)
+    fails[0] = False
+    simulation.run(100)
+    whole = jostle.Simulation(cells)
+    whole.run(100)
+    assert same(state(simulation), state(whole))
+
+
+def test_no_step_after_one_that_ended_half_way(tmp_path):
+    """40 founders have 6 bits of an id, a line the other 47: the division after those is refused once rods have moved."""
+    cells = jostle.Scene(box={"edges": [60.0, 60.0, 60.0]}, rods={"count": 40, "length": 1.0}, seed=4,
+                         growth={"rate": 1.0, "division_length": 3.0, "death_rate": 0.31},
+                         time={"step": 0.05, "production": 200.0})
+    simulation = jostle.Simulation(cells)
+    with pytest.raises(jostle.InputError, match="has had 47 divisions in its line"):
+        simulation.run(4000)
+    step = simulation.clock.step
+    for again in (simulation.step, lambda: simulation.run(10), lambda: simulation.save(tmp_path / "run")):
+        with pytest.raises(RuntimeError, match="ended half way"):
+            again()
+    assert simulation.clock.step == step and not (tmp_path / "run/checkpoint").exists()
+
+
+def test_the_number_of_threads_is_that_of_all_python_threads():
+    before = jostle.thread_count()
+    try:
+        jostle.set_thread_count(3)
+        seen = []
+        other = threading.Thread(target=lambda: seen.append(jostle.thread_count()))
+        other.start()
+        other.join()
+        assert seen == [3]
+    finally:
+        jostle.set_thread_count(before)
+
+
 def test_a_motion_cannot_make_steps(rods):
     simulation = jostle.Simulation(rods)
     simulation.add_motion(lambda given, clock: simulation.step() and 0 * given.centre)

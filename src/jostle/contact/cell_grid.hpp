@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 
 #include "jostle/rods/box.hpp"
 #include "jostle/rods/rods.hpp"

@@ -147,7 +147,7 @@ void CollisionSearch::search_block(std::size_t block, const Rods& rods, const Bo
         if (++count == Batch::size) sort_out();
     });
     sort_out();
-    blocks_[block] = found;  // no larger than need be
+    blocks_[block] = found;
 }
 
 void CollisionSearch::look_closely(const PairName& name, std::uint16_t in_block, const Rods& rods, const Box& box,

@@ -1,9 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <span>
 #include <vector>
 
+#include "jostle/parallel/parallel_for.hpp"
 #include "jostle/rods/rods.hpp"
 
 namespace jostle {

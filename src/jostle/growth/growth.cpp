@@ -73,22 +73,23 @@ CellCycle Growth::newborn(std::uint64_t id, double length, double diameter, std:
     return cycle;
 }
 
-void Growth::lengthen(Rods& rods, std::span<const std::uint32_t> rows, std::span<const ContactForce> forces,
-                      double time_step) const {
-    if (law_.stall_force) {
-        std::vector<double> compression(rods.size(), 0.0);
-        parallel_for(rows.size(), [&](std::size_t k) {
-            const std::uint32_t row = rows[k];
-            if (rods.length[row] > 0.0) compression[row] = -dot(forces[k].lever, rods.axis[row]) / rods.length[row];
-        });
-        parallel_for(rods.size(), [&](std::size_t i) {
-            double& share = rods.cycle[i].share;
-            share /= share + std::max(0.0, compression[i] / *law_.stall_force);
-            share = std::max(share, least_share);
-        });
-    }
+void Growth::lengthen(Rods& rods, double time_step) const {
     parallel_for(rods.size(),
                  [&](std::size_t i) { rods.length[i] += rods.cycle[i].share * rods.cycle[i].growth_rate * time_step; });
+}
+
+void Growth::slow_down(Rods& rods, std::span<const std::uint32_t> rows, std::span<const ContactForce> forces) const {
+    if (!law_.stall_force) return;
+    std::vector<double> compression(rods.size(), 0.0);
+    parallel_for(rows.size(), [&](std::size_t k) {
+        const std::uint32_t row = rows[k];
+        if (rods.length[row] > 0.0) compression[row] = -dot(forces[k].lever, rods.axis[row]) / rods.length[row];
+    });
+    parallel_for(rods.size(), [&](std::size_t i) {
+        double& share = rods.cycle[i].share;
+        share /= share + std::max(0.0, compression[i] / *law_.stall_force);
+        share = std::max(share, least_share);
+    });
 }
 
 std::vector<LineageEvent> Growth::divide(Rods& rods, const Box& box, std::uint64_t step, double time_step) const {

@@ -20,7 +20,7 @@ struct LineageEvent {
     double length;         ///< of the cell then
 };
 
-/// Growth, division and death: what happens to rods between two steps (theory, section 5).
+/// Growth, division and death of cells (theory, section 5).
 ///
 /// A cell of length L divides into two of length (L - D)/2 with centres at -+(L + D)/4 along its axis: end to end they
 /// touch, and reach as far as their mother. The one behind keeps her id; the one in front, at the head, gets a new one,
@@ -34,10 +34,12 @@ public:
     /// Gives the rods at the start their cycles, which all are as if just born, and `founder_bits`.
     void found(Rods& rods) const;
 
-    /// One step of growth: rate dt, less where a cell is compressed (dL/dt = rate (1 - F/F_stall), at least 0; theory,
-    /// eq. 5.2). `rows`: of the rods with contacts; `forces`: (rows.size()) on them; the compression is F = -lever.n/L.
-    void lengthen(Rods& rods, std::span<const std::uint32_t> rows, std::span<const ContactForce> forces,
-                  double time_step) const;
+    /// One step of growth: the cell's rate dt, times the share of it that compression leaves.
+    void lengthen(Rods& rods, double time_step) const;
+
+    /// How much compression slows the cells (dL/dt = rate (1 - F/F_stall), at least 0; theory, eq. 5.2). `rows`: of the
+    /// rods with contacts; `forces`: (rows.size()) on them; the compression is F = -lever.n/L.
+    void slow_down(Rods& rods, std::span<const std::uint32_t> rows, std::span<const ContactForce> forces) const;
 
     /// Whether cells divide and die after the step with this number.
     bool is_due(std::uint64_t step) const { return step % law_.division_every == 0; }

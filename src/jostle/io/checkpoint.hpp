@@ -21,7 +21,7 @@ struct Checkpoint {
     Rods rods;                           ///< at that time, double precision
     std::vector<Spring> springs;         ///< between them, with the images that they hold
     std::vector<LastForce> last_forces;  ///< that the next step begins from, if any
-    std::vector<double> accumulators;    ///< running sums of the run; their order is the simulation's own
+    std::vector<double> accumulators;    ///< running sums of the run; in the order of `StepSums::to_numbers`
     std::uint64_t series_bytes = 0;      ///< length of series.csv, with the header
     std::uint64_t series_hash = 0;       ///< checksum of these bytes
     std::uint64_t trajectory_bytes = 0;  ///< length of trajectory.journal; 0: the run keeps no trajectory

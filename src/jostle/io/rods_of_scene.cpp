@@ -77,6 +77,7 @@ std::optional<Rods> rods_from_file(const Scene& scene, const std::filesystem::pa
     const auto [thinnest, thickest] = std::minmax_element(rods.diameter.begin(), rods.diameter.end());
     require_diameter(scene, file.string(), *thinnest, *thickest);
     validate_box(scene, total_volume(rods), *thickest);
+    validate_growth(scene, *thickest);
     require_near(rods, box_of(scene, rods), file.string());
     return rods;
 }

@@ -44,7 +44,7 @@ private:
     void add(const StepReport& report);
 };
 
-/// A checkpoint of the state and the sums, of a run that keeps no files.
+/// A checkpoint of the state and the sums; of files it knows nothing yet.
 Checkpoint checkpoint_of(const Simulation& simulation, const StepSums& sums, std::string scene);
 
 /// Sums at the beginning of a run.

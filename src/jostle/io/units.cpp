@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <vector>
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/io/nearest_word.hpp"

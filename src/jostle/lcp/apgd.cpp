@@ -11,9 +11,9 @@ namespace jostle {
 namespace {
 
 /// Of a step d from the extrapolated point: d.diag(A) d, d.A d, and g.(gamma+ - gamma) with g the gradient there.
-struct StepProducts {
+struct TrialProducts {
     double length = 0.0, curvature = 0.0, uphill = 0.0;
-    StepProducts& operator+=(const StepProducts& other) {
+    TrialProducts& operator+=(const TrialProducts& other) {
         length += other.length;
         curvature += other.curvature;
         uphill += other.uphill;
@@ -33,7 +33,7 @@ public:
 
     /// One iteration. False if it stands still, or no application is left for a step to be taken anew.
     bool step() {
-        StepProducts products = try_step();
+        TrialProducts products = try_step();
         while (products.curvature > bound_ * products.length) {
             if (search_.applications_left() == 0) return false;
             set_bound(std::max(products.curvature / products.length, 1.5 * bound_));
@@ -51,7 +51,7 @@ private:
     void set_bound(double bound) { bound_ = std::max(bound, 0.1); }
 
     /// The projected step from the extrapolated point.
-    StepProducts try_step() {
+    TrialProducts try_step() {
         const LcpIterate& now = search_.current();
         LcpIterate& next = search_.next();
         const double length = 1.0 / bound_;
@@ -59,10 +59,10 @@ private:
             next.gamma[l] = std::max(gamma_[l] - length * weight_[l] * velocity_[l], 0.0);
         });
         search_.apply_to_next();
-        return parallel_sum<StepProducts>(gamma_.size(), [&](std::size_t l) {
+        return parallel_sum<TrialProducts>(gamma_.size(), [&](std::size_t l) {
             const double d = next.gamma[l] - gamma_[l];
-            return StepProducts{d * d / weight_[l], d * (next.velocity[l] - velocity_[l]),
-                                velocity_[l] * (next.gamma[l] - now.gamma[l])};
+            return TrialProducts{d * d / weight_[l], d * (next.velocity[l] - velocity_[l]),
+                                 velocity_[l] * (next.gamma[l] - now.gamma[l])};
         });
     }
 

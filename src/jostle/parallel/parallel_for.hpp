@@ -14,7 +14,7 @@ namespace jostle {
 
 namespace parallel {
 
-/// Number of threads used by all later loops; at least 1.
+/// Number of threads used by all later loops, whichever thread calls them; at least 1.
 void set_thread_count(int count);
 int thread_count();
 
@@ -36,7 +36,7 @@ inline constexpr std::size_t sum_block = 256;
 template <class Share>
 void for_shares(std::size_t count, bool on_one, Share&& share) {
     std::exception_ptr thrown;  // it may not leave the thread
-#pragma omp parallel if (!on_one)
+#pragma omp parallel if (!on_one) num_threads(thread_count())
     try {
         const auto [begin, end] = own_share(count);
         share(begin, end);

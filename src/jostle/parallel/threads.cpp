@@ -1,5 +1,7 @@
 #include <omp.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cstdlib>
 
 #include "jostle/parallel/parallel_for.hpp"
@@ -12,22 +14,22 @@ namespace {
 constexpr std::size_t rods_per_thread = 2000;
 
 const auto processors = static_cast<std::size_t>(omp_get_num_procs());
-bool is_set = std::getenv("OMP_NUM_THREADS") != nullptr;
+const bool is_in_environment = std::getenv("OMP_NUM_THREADS") != nullptr;
+std::atomic<int> chosen = 0;  ///< 0: OpenMP's own, which belongs to the calling thread
 
 }  // namespace
 
 void set_thread_count(int count) {
-    is_set = true;
-    omp_set_num_threads(std::max(1, count));
+    chosen = std::max(1, count);
 }
 
 void suit_thread_count(std::size_t rods) {
-    if (is_set) return;
+    if (chosen > 0 || is_in_environment) return;
     omp_set_num_threads(static_cast<int>(std::clamp(rods / rods_per_thread, std::size_t{1}, processors)));
 }
 
 int thread_count() {
-    return omp_get_max_threads();
+    return chosen > 0 ? chosen.load() : omp_get_max_threads();
 }
 
 std::pair<std::size_t, std::size_t> own_share(std::size_t count) {

@@ -1,8 +1,15 @@
 #include "jostle/rods/box.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace jostle {
+
+namespace {
+
+constexpr double farthest_image = 1e9;  ///< images are counted in 32 bits
+
+}  // namespace
 
 void Box::wrap(Vec3& centre, Image& image) const {
     for (int k = 0; k < 3; ++k) {
@@ -10,7 +17,7 @@ void Box::wrap(Vec3& centre, Image& image) const {
         if (!periodic[direction] || (centre[k] >= 0.0 && centre[k] < edges[k])) continue;
         const double crossed = std::floor(centre[k] / edges[k]);
         double wrapped = centre[k] - crossed * edges[k];
-        auto count = static_cast<std::int32_t>(crossed);
+        auto count = static_cast<std::int32_t>(std::clamp(crossed, -farthest_image, farthest_image));
         if (wrapped < 0.0) wrapped = 0.0;  // rounding
         if (wrapped >= edges[k]) {         // rounding: a hair below 0 becomes the edge itself
             wrapped = 0.0;

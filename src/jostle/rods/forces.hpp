@@ -13,10 +13,6 @@ struct Forces {
 
     explicit Forces(std::size_t count = 0) : force(count), torque(count) {}
     std::size_t size() const { return force.size(); }
-    void resize(std::size_t count) {
-        force.resize(count);
-        torque.resize(count);
-    }
 };
 
 }  // namespace jostle

@@ -9,6 +9,7 @@
 #include "jostle/mobility/drag_mobility.hpp"
 #include "jostle/motion/brownian_motion.hpp"
 #include "jostle/motion/self_propulsion.hpp"
+#include "jostle/simulation/rod_size.hpp"
 #include "jostle/simulation/scene_motion.hpp"
 #include "jostle/simulation/step_limits.hpp"
 
@@ -26,14 +27,15 @@ std::unique_ptr<Mobility> make_mobility(const Scene& scene, const Rods& rods) {
 }
 
 double time_step(const Scene& scene, const Mobility& mobility, const Rods& rods) {
+    const double thinnest = smallest_diameter(scene, rods);
     double step = 0.0;
     if (scene.time.step) {
         step = *scene.time.step;
     } else {
-        const double length = *scene.time.rms_step * *std::min_element(rods.diameter.begin(), rods.diameter.end());
+        const double length = *scene.time.rms_step * thinnest;
         step = length * length / (2.0 * fastest_diffusion(thermal_energy(scene), mobility, rods.size()));
     }
-    require_short_growth(scene, step);
+    require_short_growth(scene, thinnest, step);
     return step;
 }
 

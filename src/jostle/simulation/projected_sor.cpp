@@ -1,6 +1,5 @@
 #include "jostle/simulation/projected_sor.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "jostle/parallel/parallel_for.hpp"

@@ -17,6 +17,7 @@ constexpr double free_space = 1e-3;
 constexpr double reach = 0.1;
 constexpr double largest_move = 0.2;  ///< of any point of a rod in a round
 constexpr double tolerance = 1e-4;
+constexpr int most_rounds = 2000;
 constexpr double rounding = 1e-12;  ///< overlaps that are none: of a rod with its own image in a box of just its width
 constexpr std::uint64_t iterations_each_round = 300;
 
@@ -38,7 +39,7 @@ void move(Rods& rods, const Box& box, const ContactSolution& solution, double li
 
 }  // namespace
 
-PushApartResult push_apart(Rods& rods, const Box& box, Mobility& mobility, int largest_rounds) {
+PushApartResult push_apart(Rods& rods, const Box& box, Mobility& mobility) {
     PushApartResult result;
     mobility.update(rods);
     const double thinnest = rods.size() == 0 ? 1.0 : *std::min_element(rods.diameter.begin(), rods.diameter.end());
@@ -49,7 +50,7 @@ PushApartResult push_apart(Rods& rods, const Box& box, Mobility& mobility, int l
         neighbours.update(rods, box, reaches);
         result.overlap = find_contacts(rods, box, neighbours, reaches, contacts);
         result.apart = result.overlap <= rounding * thinnest;
-        if (result.apart || result.rounds == largest_rounds) return result;
+        if (result.apart || result.rounds == most_rounds) return result;
 
         std::vector<double> b(contacts.size());
         parallel_for(b.size(), [&](std::size_t l) {

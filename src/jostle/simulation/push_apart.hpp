@@ -15,8 +15,7 @@ struct PushApartResult {
 /// motion.
 ///
 /// Every round opens each overlap by at most a tenth of the thinnest diameter (the gap is linear only so far) and aims
-/// at a hair of free space between touching rods. Gives up after `largest_rounds`, or when numbers are no longer
-/// finite.
-PushApartResult push_apart(Rods& rods, const Box& box, Mobility& mobility, int largest_rounds = 2000);
+/// at a hair of free space between touching rods. Gives up after 2000 rounds, or when numbers are no longer finite.
+PushApartResult push_apart(Rods& rods, const Box& box, Mobility& mobility);
 
 }  // namespace jostle

@@ -1,5 +1,6 @@
 #include "jostle/simulation/rod_size.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -23,6 +24,11 @@ void draw(std::uint64_t seed, std::uint64_t draw, std::span<const std::uint64_t>
 }
 
 }  // namespace
+
+double smallest_diameter(const Scene& scene, const Rods& rods) {
+    const auto& diameter = rods.diameter;
+    return diameter.empty() ? scene.rods.diameter : *std::min_element(diameter.begin(), diameter.end());
+}
 
 std::vector<RodSize> rod_sizes(const Scene& scene) {
     const RodSize mean = {scene.rods.length, scene.rods.diameter};

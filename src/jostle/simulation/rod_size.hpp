@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "jostle/rods/rods.hpp"
 #include "jostle/simulation/scene.hpp"
 
 namespace jostle {
@@ -15,10 +16,17 @@ struct RodSize {
 /// again.
 inline constexpr double farthest_deviation = 3.0;
 
-/// Whether all rods of the scene start alike. Those of a file need not.
+/// Whether all rods of the scene start with the same size. Those of a file need not.
 inline bool rods_are_alike(const Scene& scene) {
     return scene.rods.length_deviation == 0.0 && scene.rods.diameter_deviation == 0.0;
 }
+/// Of a scene without a file: no rod is thicker.
+inline double largest_diameter(const Scene& scene) {
+    return scene.rods.diameter + farthest_deviation * scene.rods.diameter_deviation;
+}
+
+/// The diameter of the thinnest rod; that of the scene where there is none.
+double smallest_diameter(const Scene& scene, const Rods& rods);
 
 /// Length and diameter that each rod starts with, by id (`rods.count`): normal numbers of mean `rods.length` and
 /// `rods.diameter` and standard deviations `rods.length_deviation` and `rods.diameter_deviation`, a function of (seed,

@@ -79,6 +79,7 @@ public:
 private:
     void add_springs();
     void renumber();
+    void lengthen();
     void find_known_velocity();
     void find_contacts(StepReport& report);
     void solve_contacts(StepReport& report);
@@ -86,7 +87,7 @@ private:
     void measure_stress(StepReport& report);
     void measure_spring_stress(StepReport& report);
     void advance();
-    void grow();
+    void divide();
 
     void keep_forces();
     void take_over_rods();

@@ -1,6 +1,7 @@
 // One step of the simulation, in the order of docs/theory: read `step`, then the functions that it calls.
 
 #include <chrono>
+#include <optional>
 #include <tuple>
 
 #include "jostle/contact/pushed_overlaps.hpp"
@@ -33,6 +34,23 @@ private:
     Clock::time_point last_;
 };
 
+/// Cells that lengthen in a step: where it fails they have not.
+class Lengthening {
+public:
+    explicit Lengthening(Rods& rods) : rods_(rods), before_(rods.length) {}
+    Lengthening(const Lengthening&) = delete;
+    Lengthening& operator=(const Lengthening&) = delete;
+    ~Lengthening() {
+        if (!kept_) rods_.length.swap(before_);
+    }
+    void keep() { kept_ = true; }
+
+private:
+    Rods& rods_;
+    std::vector<double> before_;
+    bool kept_ = false;
+};
+
 /// Pairs in contact may overlap by as much, in D, where contact forces turn them far in one step.
 constexpr double most_pushed_overlap = 0.01;
 /// So often, and no more, are their overlaps looked for in one step.
@@ -49,6 +67,11 @@ StepReport Simulation::step() {
 
     parallel::suit_thread_count(rods_.size());
     renumber();
+    std::optional<Lengthening> lengthening;
+    if (growth_) {
+        lengthening.emplace(rods_);
+        lengthen();
+    }
     find_known_velocity();
     timer.finish(StepPhase::known_velocity);
     find_contacts(report);
@@ -61,12 +84,22 @@ StepReport Simulation::step() {
     }
     measure_spring_stress(report);
     measure_stress(report);
+    if (growth_) growth_->slow_down(rods_, solution_.rods, solution_.forces);
     timer.finish(StepPhase::measure_stress);
     advance();
-    grow();
+    if (growth_) {
+        lengthening->keep();
+        divide();
+    }
     if (settings_.warm_start) keep_forces();
     timer.finish(StepPhase::advance);
     return report;
+}
+
+// Theory 5: growth closes gaps, and the contact problem of the same step opens them.
+void Simulation::lengthen() {
+    growth_->lengthen(rods_, settings_.time_step);
+    find_sizes();
 }
 
 // Theory 2.1: U_known, the sum of all motions, and where it would take the rods.
@@ -288,19 +321,13 @@ void Simulation::advance() {
     clock_.time = static_cast<double>(clock_.step) * settings_.time_step;
 }
 
-// Theory 5: between two steps cells lengthen, and now and then divide or die.
-void Simulation::grow() {
-    if (!growth_) return;
-    growth_->lengthen(rods_, solution_.rods, solution_.forces, settings_.time_step);
+// Theory 5: between two steps cells may divide or die.
+void Simulation::divide() {
     lineage_.clear();
-    if (growth_->is_due(clock_.step)) {
-        ids_before_ = rods_.id;
-        lineage_ = growth_->divide(rods_, box_, clock_.step, settings_.time_step);
-    }
-    if (lineage_.empty())
-        find_sizes();
-    else
-        take_over_rods();
+    if (!growth_->is_due(clock_.step)) return;
+    ids_before_ = rods_.id;
+    lineage_ = growth_->divide(rods_, box_, clock_.step, settings_.time_step);
+    if (!lineage_.empty()) take_over_rods();
 }
 
 // For the next step, of the rods that are still there.

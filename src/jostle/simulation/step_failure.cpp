@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include "jostle/simulation/rod_size.hpp"
 
 namespace jostle {
 
@@ -18,11 +18,6 @@ std::string description(LcpStatus status) {
             return "the contact problem holds numbers that are not finite";
     }
     return "";
-}
-
-double smallest_diameter(const Scene& scene, const Rods& rods) {
-    const auto& diameter = rods.diameter;
-    return diameter.empty() ? scene.rods.diameter : *std::min_element(diameter.begin(), diameter.end());
 }
 
 std::optional<std::string> step_failure(const StepReport& report, const Scene& scene, const Rods& rods) {

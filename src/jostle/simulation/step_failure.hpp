@@ -11,9 +11,6 @@ namespace jostle {
 /// Why a contact problem was not solved, in words.
 std::string description(LcpStatus status);
 
-/// The diameter of the thinnest rod; that of the scene where there is none.
-double smallest_diameter(const Scene& scene, const Rods& rods);
-
 /// Why a run cannot go on after a step: contacts not resolved, or rods that overlap by more than
 /// `contact.overlap_limit`. Empty after a sound step.
 std::optional<std::string> step_failure(const StepReport& report, const Scene& scene, const Rods& rods);

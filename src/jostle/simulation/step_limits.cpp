@@ -8,6 +8,7 @@
 
 #include "jostle/motion/self_propulsion.hpp"
 #include "jostle/simulation/refusal.hpp"
+#include "jostle/simulation/rod_size.hpp"
 #include "jostle/simulation/scene_keys.hpp"
 #include "jostle/simulation/scene_motion.hpp"
 
@@ -20,16 +21,19 @@ constexpr double farthest_turn = 0.25;
 /// A rod that swims farther than this in a step (in D) could pass through others.
 constexpr double farthest_swim = 0.5;
 
-/// Rates of cells beyond the mean by so many standard deviations are one in thirty thousand.
+/// Rates and speeds of cells beyond the mean by so many standard deviations are one in thirty thousand.
 constexpr double deviations_of_the_fastest = 4.0;
+/// Cells divide late by as much of what they add from birth to division, at most, for being looked at now and then.
+constexpr double latest_division = 0.25;
 constexpr auto largest_step_number = static_cast<double>(most_steps);
 
 constexpr const char* slower_tumbles = "Use a shorter time.step or slower tumbles";
 
 }  // namespace
 
-void require_short_growth(const Scene& scene, double time_step) {
-    const double longest = 0.1 * scene.rods.diameter;
+void require_short_growth(const Scene& scene, double diameter, double time_step) {
+    if (scene.growth.rate == 0.0) return;
+    const double longest = 0.1 * diameter;
     const double fastest = 1.0 + deviations_of_the_fastest * scene.growth.rate_deviation;
     const double of_step = fastest * scene.growth.rate * time_step;
     if (of_step > longest)
@@ -38,6 +42,14 @@ void require_short_growth(const Scene& scene, double time_step) {
                            rounded(time_step)),
                fmt::format("at most {}, a tenth of the diameter in a step", rounded(longest / (fastest * time_step))),
                "Use a shorter time.step");
+    const double added = 0.5 * (scene.growth.division_length + diameter);
+    const double most_steps_between = std::max(1.0, std::floor(latest_division * added / of_step));
+    if (static_cast<double>(scene.growth.division_every) > most_steps_between)
+        refuse("growth.division_every", fmt::format("{}", scene.growth.division_every),
+               fmt::format("lets cells grow by {} between two looks at who divides; from birth to division they add {}",
+                           rounded(static_cast<double>(scene.growth.division_every) * of_step), rounded(added)),
+               fmt::format("at most {:.0f}, a quarter of it", most_steps_between),
+               "Look more often, or use a shorter time.step");
 }
 
 void require_countable_steps(const Scene& scene, double time_step) {
@@ -55,15 +67,19 @@ void require_countable_steps(const Scene& scene, double time_step) {
 void require_slow_swimmers(const Scene& scene, const Rods& rods, double time_step) {
     const Swimming swimming = swimming_of(scene);
     if (swimming.speed == 0.0) return;
-    const std::vector<double> speed = SelfPropulsion(swimming).speeds(rods, scene.seed);
-    for (std::size_t i = 0; i < rods.size(); ++i) {
-        const double most = farthest_swim * rods.diameter[i] / time_step;
-        if (std::fabs(speed[i]) > most)
-            refuse("motion.self_propulsion", rounded(speed[i]),
+    const auto require_slow = [&](double speed, double diameter) {
+        const double most = farthest_swim * diameter / time_step;
+        if (std::fabs(speed) > most)
+            refuse("motion.self_propulsion", rounded(speed),
                    fmt::format("takes a rod through others in a single step of {}", rounded(time_step)),
                    fmt::format("speeds up to {}, half a diameter in a step", rounded(most)),
                    "Use a shorter time.step or slower swimmers");
-    }
+    };
+    const std::vector<double> speed = SelfPropulsion(swimming).speeds(rods, scene.seed);
+    for (std::size_t i = 0; i < rods.size(); ++i) require_slow(speed[i], rods.diameter[i]);
+    if (scene.growth.rate > 0.0 && rods.speed.empty())  // daughters draw their own
+        require_slow(std::fabs(swimming.speed) + deviations_of_the_fastest * swimming.deviation,
+                     smallest_diameter(scene, rods));
     if (swimming.tumble_rate == 0.0) return;
     if (swimming.tumble_rate * time_step > 1.0)
         refuse("motion.tumble_rate", rounded(swimming.tumble_rate), "is more than one tumble in a time step",

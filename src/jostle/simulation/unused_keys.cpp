@@ -3,6 +3,9 @@
 #include <fmt/core.h>
 
 #include <array>
+#include <optional>
+#include <type_traits>
+#include <utility>
 
 #include "jostle/simulation/refusal.hpp"
 #include "jostle/simulation/scene_keys.hpp"
@@ -11,19 +14,37 @@ namespace jostle {
 
 namespace {
 
-struct MotionValue {
-    const char* key;
-    double given;  ///< 0 by default
-};
+std::string in_words(bool value) {
+    return value ? "true" : "false";
+}
+std::string in_words(const std::string& value) {
+    return value;
+}
+std::string in_words(const Vec3& value) {
+    return text(value);
+}
+template <class Value>
+std::string in_words(const Value& value) {
+    if constexpr (std::is_enum_v<Value>)
+        return std::string(word_of(value));
+    else
+        return fmt::format("{}", value);
+}
+template <class Value>
+std::string in_words(const std::optional<Value>& value) {
+    return value ? in_words(*value) : "auto";
+}
+std::string in_words(const std::array<bool, 3>& value) {
+    return fmt::format("[{}, {}, {}]", value[0], value[1], value[2]);
+}
 
-/// The keys of swimmers, which mean nothing where nothing swims.
-std::array<MotionValue, 5> motion_values(const Scene& scene) {
-    const Scene::MotionTable& motion = scene.motion;
-    return {{{"motion.self_propulsion_deviation", motion.self_propulsion_deviation},
-             {"motion.tumble_rate", motion.tumble_rate},
-             {"motion.tumble_time", motion.tumble_time.value_or(0.0)},
-             {"motion.reversal_rate", motion.reversal_rate},
-             {"output.active_stress_lag", scene.output.active_stress_lag.value_or(0.0)}}};
+/// The values of all keys, in their order.
+std::vector<std::pair<std::string, std::string>> values_of(const Scene& scene) {
+    std::vector<std::pair<std::string, std::string>> values;
+    for_each_key(scene, [&](const char* table, const char* name, const auto& member, const auto&) {
+        values.emplace_back(full_key(table, name), in_words(member));
+    });
+    return values;
 }
 
 }  // namespace
@@ -42,8 +63,9 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
     if (start != StartKind::aligned && start != StartKind::lattice)
         unused.push_back({"rods.axis", with, "Set start = \"aligned\", or remove axis"});
     if (scene.motion.self_propulsion == 0.0)
-        for (const MotionValue& value : motion_values(scene))
-            unused.push_back({value.key, "is not used with motion.self_propulsion = 0: nothing swims",
+        for (const char* key : {"motion.self_propulsion_deviation", "motion.tumble_rate", "motion.tumble_time",
+                                "motion.reversal_rate", "output.active_stress_lag"})
+            unused.push_back({key, "is not used with motion.self_propulsion = 0: nothing swims",
                               "Set self_propulsion, or remove it"});
     else if (scene.motion.tumble_rate == 0.0)
         unused.push_back({"motion.tumble_time", "is not used with motion.tumble_rate = 0",
@@ -74,25 +96,11 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
 }
 
 void refuse_unused_keys(const Scene& scene) {
-    const Scene defaults;
-    for (const UnusedKey& unused : unused_keys(scene)) {
-        std::string value;
-        if (unused.key == "rods.file") value = scene.rods.file;
-        if (unused.key == "rods.axis" && !(scene.rods.axis == defaults.rods.axis)) value = text(scene.rods.axis);
-        if (unused.key == "rods.length_deviation" && scene.rods.length_deviation != 0.0)
-            value = text(scene.rods.length_deviation);
-        if (unused.key == "rods.diameter_deviation" && scene.rods.diameter_deviation != 0.0)
-            value = text(scene.rods.diameter_deviation);
-        if (unused.key == "output.field_spacing" && scene.output.field_spacing)
-            value = text(*scene.output.field_spacing);
-        if (unused.key == "output.stress_per_rod" && scene.output.stress_per_rod) value = "true";
-        if (unused.key == "contact.energy" && scene.contact.energy) value = text(*scene.contact.energy);
-        if (unused.key == "contact.range" && scene.contact.range) value = text(*scene.contact.range);
-        for (const auto& [key, given] : motion_values(scene))
-            if (unused.key == key && given != 0.0) value = text(given);
-        if (unused.key == "box.shape" && !(scene.box.shape == defaults.box.shape)) value = text(scene.box.shape);
-        if (!value.empty()) refuse(unused.key, value, unused.reason, "", unused.suggestion);
-    }
+    const auto values = values_of(scene), defaults = values_of(Scene{});
+    for (const UnusedKey& unused : unused_keys(scene))
+        for (std::size_t k = 0; k < values.size(); ++k)
+            if (values[k].first == unused.key && values[k].second != defaults[k].second)
+                refuse(unused.key, values[k].second, unused.reason, "", unused.suggestion);
 }
 
 }  // namespace jostle

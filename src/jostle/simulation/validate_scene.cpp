@@ -93,8 +93,8 @@ void check_motion(const Scene& scene) {
 }
 
 void check_mobility(const Scene& scene) {
-    const double aspect_ratio = (scene.rods.length - farthest_deviation * scene.rods.length_deviation) /
-                                (scene.rods.diameter + farthest_deviation * scene.rods.diameter_deviation);
+    const double aspect_ratio =
+        (scene.rods.length - farthest_deviation * scene.rods.length_deviation) / largest_diameter(scene);
     if (scene.mobility.model == MobilityModel::slender_body && !(aspect_ratio > slender_limit))
         refuse("mobility.model", "\"slender_body\"",
                fmt::format("gives rods of L/D = {} a negative drag: it holds for slender rods only",
@@ -103,41 +103,18 @@ void check_mobility(const Scene& scene) {
                "Use model = \"finite_aspect_ratio\", which holds for every L/D");
 }
 
-/// L/D of the shortest cells that divisions make, but for one in a million. Of adders and timers half of what a mother
-/// deviates by is handed on, so that lengths deviate by sqrt(1 + 1/4 + 1/16 + ...) of what is added.
-double shortest_daughter(const Scene& scene) {
+/// L/D of the shortest cells that divisions of mothers of this diameter make, but for one in a million. Of adders and
+/// timers half of what a mother deviates by is handed on, so that lengths deviate by sqrt(1 + 1/4 + 1/16 + ...) of what
+/// is added.
+double shortest_daughter(const Scene& scene, double diameter) {
     const GrowthLaw& growth = scene.growth;
-    const double diameter = scene.rods.diameter, added = 0.5 * (growth.division_length + diameter);
+    const double added = 0.5 * (growth.division_length + diameter);
     double deviation = growth.division_deviation * added * std::sqrt(4.0 / 3.0);
     if (growth.division == DivisionRule::sizer) deviation = growth.division_deviation * growth.division_length;
     if (growth.division == DivisionRule::timer)
         deviation = std::hypot(growth.division_deviation, growth.rate_deviation) * added * std::sqrt(4.0 / 3.0);
     const double mother = growth.division_length - 5.0 * deviation;
     return std::max(0.0, 0.5 * (mother - diameter) / diameter);
-}
-
-void check_growth(const Scene& scene) {
-    const GrowthLaw& growth = scene.growth;
-    if (growth.rate == 0.0) return;
-    if (!(growth.division_length > scene.rods.diameter))
-        refuse(
-            "growth.division_length", text(growth.division_length),
-            fmt::format("is not above what two daughters need: each gets half of what the length exceeds the diameter, "
-                        "{}, by",
-                        scene.rods.diameter),
-            fmt::format("greater than {}", scene.rods.diameter), "");
-    if (scene.rods.start != StartKind::file && !(growth.division_length > scene.rods.length))
-        refuse("growth.division_length", text(growth.division_length),
-               fmt::format("is not above rods.length = {}, at which cells start", scene.rods.length),
-               fmt::format("greater than {}", scene.rods.length), "");
-    const double daughter = shortest_daughter(scene);
-    if (scene.mobility.model == MobilityModel::slender_body && !(daughter > slender_limit))
-        refuse("growth.division_length", text(growth.division_length),
-               fmt::format("makes daughters as short as L/D = {}, too short for the mobility \"slender_body\"",
-                           rounded(daughter)),
-               fmt::format("greater than {} where nothing deviates",
-                           rounded((2.0 * slender_limit + 1.0) * scene.rods.diameter)),
-               "Or use model = \"finite_aspect_ratio\", which holds for every L/D");
 }
 
 void check_springs(const Scene& scene) {
@@ -184,7 +161,7 @@ void check_time(const Scene& scene) {
                "Add step = 1e-3 under [time]");
     check_rms_step(scene);
     if (!scene.time.step) return;
-    require_short_growth(scene, *scene.time.step);
+    require_short_growth(scene, scene.rods.diameter, *scene.time.step);
     require_countable_steps(scene, *scene.time.step);
 }
 
@@ -198,12 +175,11 @@ void validate(const Scene& scene) {
     if (scene.rods.start != StartKind::file) {
         check_deviations(scene);
         check_packing(scene);
-        validate_box(scene, rods_volume(scene),
-                     scene.rods.diameter + farthest_deviation * scene.rods.diameter_deviation);
+        validate_box(scene, rods_volume(scene), largest_diameter(scene));
     }
     check_motion(scene);
     check_mobility(scene);
-    check_growth(scene);
+    validate_growth(scene, largest_diameter(scene));
     check_springs(scene);
     check_solver(scene);
     check_time(scene);
@@ -226,6 +202,30 @@ void validate_box(const Scene& scene, double rods_volume, double largest_diamete
         refuse(key, value,
                fmt::format("leaves the rods no room: their volume is {} times that of the box", rounded(fraction)),
                "a volume fraction less than 1", "Enlarge the box or use fewer rods");
+}
+
+void validate_growth(const Scene& scene, double largest_diameter) {
+    const GrowthLaw& growth = scene.growth;
+    if (growth.rate == 0.0) return;
+    if (!(growth.division_length > largest_diameter))
+        refuse(
+            "growth.division_length", text(growth.division_length),
+            fmt::format("is not above what two daughters need: each gets half of what the length exceeds the diameter, "
+                        "{}, by",
+                        largest_diameter),
+            fmt::format("greater than {}", largest_diameter), "");
+    if (scene.rods.start != StartKind::file && !(growth.division_length > scene.rods.length))
+        refuse("growth.division_length", text(growth.division_length),
+               fmt::format("is not above rods.length = {}, at which cells start", scene.rods.length),
+               fmt::format("greater than {}", scene.rods.length), "");
+    const double daughter = shortest_daughter(scene, largest_diameter);
+    if (scene.mobility.model == MobilityModel::slender_body && !(daughter > slender_limit))
+        refuse("growth.division_length", text(growth.division_length),
+               fmt::format("makes daughters as short as L/D = {}, too short for the mobility \"slender_body\"",
+                           rounded(daughter)),
+               fmt::format("greater than {} where nothing deviates",
+                           rounded((2.0 * slender_limit + 1.0) * largest_diameter)),
+               "Or use model = \"finite_aspect_ratio\", which holds for every L/D");
 }
 
 }  // namespace jostle

@@ -7,13 +7,20 @@ namespace jostle {
 /// Whether the values of a scene make sense, each alone and together; needs no file and allocates no rods.
 ///
 /// Checks ranges, the box against the rods (`validate_box`, close packing, what a random start can reach), the mobility
-/// model against L/D, and the times against each other. For start = "file" the box is checked by `validate_box`, once
-/// the file is read. Throws InputError with key "table.name", value, allowed range and suggestion, and no place.
+/// model against L/D, and the times against each other. For start = "file" box and growth are checked by `validate_box`
+/// and `validate_growth`, once the file is read. Throws InputError with key "table.name", value, allowed range and
+/// suggestion, and no place.
 void validate(const Scene& scene);
 
 /// Whether rods of `rods_volume` in all, none thicker than `largest_diameter`, can be in the box of the scene at all.
 ///
 /// Throws InputError if an edge is shorter than the diameter or the volume fraction is not below 1.
 void validate_box(const Scene& scene, double rods_volume, double largest_diameter);
+
+/// Whether cells can divide at the scene's division length, the thickest of `largest_diameter`: no constraint without
+/// growth. Daughters' diameter is that of their mother.
+///
+/// Throws InputError if two daughters need more, cells start as long, or daughters get too short for the mobility.
+void validate_growth(const Scene& scene, double largest_diameter);
 
 }  // namespace jostle

@@ -117,11 +117,8 @@ Average average(std::span<const double> series) {
     result.correlation_time = 0.5 * inefficiency;
     result.effective_samples = n / inefficiency;
     if (result.effective_samples < least_effective_samples)
-        return without_error(
-            result,
-            fmt::format("The {} rows are worth {:.1f} independent ones (correlation time {:.3g} rows); at least "
-                        "{} are needed.",
-                        n, result.effective_samples, result.correlation_time, least_effective_samples));
+        return without_error(result, fmt::format("The series is worth {:.1f} independent rows; at least {} are needed.",
+                                                 result.effective_samples, least_effective_samples));
     result.standard_error = std::sqrt(variance * inefficiency / n);
     return result;
 }

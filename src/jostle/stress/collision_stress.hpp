@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "jostle/contact/contacts.hpp"
 #include "jostle/math/mat3.hpp"

@@ -136,7 +136,8 @@ TEST_CASE("compression slows growth, tension does not hasten it") {
             const std::vector<ContactForce> forces = {{{}, -compression * rods.length[0] * rods.axis[0]},
                                                       {{}, 9.0 * rods.length[1] * rods.axis[1]}};
             before = rods.length;
-            growth.lengthen(rods, rows, forces, 0.1);
+            growth.slow_down(rods, rows, forces);
+            growth.lengthen(rods, 0.1);
         }
         return std::vector{rods.length[0] - before[0], rods.length[1] - before[1], rods.length[2] - before[2]};
     };
@@ -193,6 +194,38 @@ TEST_CASE("sizer, adder and timer keep the mean length; the adder's noise is (de
         CHECK(std::fabs(mean - 2.5) < 4.0 * std::sqrt(expected / lines));
         CHECK(std::fabs(variance / expected - 1.0) < 4.0 * std::sqrt(2.0 / lines));
     }
+}
+
+TEST_CASE("a timer's cells divide at their age, counted from birth") {
+    GrowthLaw timer = law();
+    timer.division = DivisionRule::timer;  // (L_D + D)/2 = 3.5 at rate 1
+    const Growth growth(timer, 1);
+    Rods rods = cells(3);
+    growth.found(rods);
+    CHECK(growth.divide(rods, box, 34, 0.1).empty());
+    CHECK(growth.divide(rods, box, 35, 0.1).size() == 3);
+    for (double& length : rods.length) length = 3.0;
+    CHECK(growth.divide(rods, box, 69, 0.1).empty());
+    CHECK(growth.divide(rods, box, 70, 0.1).size() == 6);
+}
+
+TEST_CASE("cells have rates of their own, of the mean and deviation asked for, and lengthen by them") {
+    constexpr int count = 4000;
+    GrowthLaw noisy = law();
+    noisy.rate_deviation = 0.2;
+    const Growth growth(noisy, 5);
+    Rods rods = cells(count);
+    growth.found(rods);
+    growth.lengthen(rods, 0.1);
+    double mean = 0.0, variance = 0.0;
+    for (int i = 0; i < count; ++i) {
+        CHECK(rods.length[i] == doctest::Approx(2.5 + 0.1 * rods.cycle[i].growth_rate));
+        mean += rods.cycle[i].growth_rate / count;
+    }
+    for (const CellCycle& cycle : rods.cycle) variance += std::pow(cycle.growth_rate - mean, 2) / (count - 1);
+    // Four standard errors of 4000 normal numbers: false alarm 1e-4 in all.
+    CHECK(std::fabs(mean - 1.0) < 4.0 * 0.2 / std::sqrt(count));
+    CHECK(std::fabs(variance / 0.04 - 1.0) < 4.0 * std::sqrt(2.0 / count));
 }
 
 TEST_CASE("cells die at their rate; the others stay in order") {
