@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <numeric>
 
 #include "jostle/io/h5md_writer.hpp"
@@ -254,9 +255,11 @@ std::string folder_for(const RunOptions& options) {
 
 /// Whether a series has rows below its header. The first checkpoint is older than the first row.
 bool has_rows(const std::string& series) {
-    if (!file_exists(series)) return false;
-    const std::string content = read_file(series);
-    return std::count(content.begin(), content.end(), '\n') > 1;
+    std::ifstream file(series);
+    std::string line;
+    std::getline(file, line);
+    std::getline(file, line);
+    return file.good();  // a line that has no end is no row
 }
 
 ExitCode start_run(const RunOptions& options, const Scene& scene, const std::string& resolved,

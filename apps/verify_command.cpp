@@ -3,7 +3,6 @@
 #include <cstdio>
 
 #include "jostle/io/checkpoint.hpp"
-#include "jostle/io/checksum.hpp"
 #include "jostle/io/h5md_writer.hpp"
 #include "jostle/io/run_directory.hpp"
 #include "jostle/io/series_file.hpp"
@@ -21,25 +20,17 @@ std::uint64_t count_frames(const std::string& path) {
     return frames;
 }
 
-void verify_prefix(const std::string& path, std::uint64_t bytes, std::uint64_t hash) {
-    const std::string content = read_file(path);
-    if (content.size() < bytes)
-        throw refused_file(path, "the file is shorter than the checkpoint says", "Start anew with --fresh");
-    if (checksum(std::string_view(content).substr(0, bytes)) != hash)
-        throw refused_file(path, "the rows up to the checkpoint are not those that were written",
-                           "Start anew with --fresh");
-}
-
 /// The files that the checkpoint stands for, up to where they had come.
 void verify_growing_files(const std::string& folder, const Checkpoint& checkpoint) {
-    verify_prefix(folder + "/series.csv", checkpoint.series_bytes, checkpoint.series_hash);
+    require_same_bytes(folder + "/series.csv", checkpoint.series_bytes, checkpoint.series_hash);
     if (checkpoint.trajectory_bytes > 0)
         TrajectoryJournal::require_frames(folder + "/trajectory.journal", checkpoint.trajectory_bytes);
     if (checkpoint.contacts_bytes > 0)
-        verify_prefix(folder + "/contacts.csv", checkpoint.contacts_bytes, checkpoint.contacts_hash);
-    if (checkpoint.field_bytes > 0) verify_prefix(folder + "/field.csv", checkpoint.field_bytes, checkpoint.field_hash);
+        require_same_bytes(folder + "/contacts.csv", checkpoint.contacts_bytes, checkpoint.contacts_hash);
+    if (checkpoint.field_bytes > 0)
+        require_same_bytes(folder + "/field.csv", checkpoint.field_bytes, checkpoint.field_hash);
     if (checkpoint.lineage_bytes > 0)
-        verify_prefix(folder + "/lineage.csv", checkpoint.lineage_bytes, checkpoint.lineage_hash);
+        require_same_bytes(folder + "/lineage.csv", checkpoint.lineage_bytes, checkpoint.lineage_hash);
 }
 
 }  // namespace

@@ -43,12 +43,11 @@ std::string add_prefix(const std::string& path, std::uint64_t bytes, std::size_t
     return header;
 }
 
-/// The checksum of the first `bytes` bytes, once they are found to be those of the checkpoint.
-RunningChecksum checked_prefix(const std::string& path, const std::vector<SeriesColumn>& columns, std::uint64_t bytes,
-                               std::uint64_t hash) {
-    RunningChecksum checksum;
-    const std::string header = header_line(columns);
-    const std::string header_found = add_prefix(path, bytes, header.size(), checksum);
+/// Adds the first `bytes` bytes to the checksum, which must be those of the checkpoint; returns the beginning, as
+/// above.
+std::string add_checked_prefix(const std::string& path, std::uint64_t bytes, std::uint64_t hash,
+                               std::size_t header_size, RunningChecksum& checksum) {
+    std::string header = add_prefix(path, bytes, header_size, checksum);
     if (checksum.value() != hash)
         throw refused_file(
             path,
@@ -56,7 +55,15 @@ RunningChecksum checked_prefix(const std::string& path, const std::vector<Series
                         "it was {:016x}",
                         bytes, checksum.value(), hash),
             "Put the file back, or start again with --fresh");
-    if (header_found != header)
+    return header;
+}
+
+/// The checksum of the first `bytes` bytes, once they are found to be those of the checkpoint, with these columns.
+RunningChecksum checked_prefix(const std::string& path, const std::vector<SeriesColumn>& columns, std::uint64_t bytes,
+                               std::uint64_t hash) {
+    RunningChecksum checksum;
+    const std::string header = header_line(columns);
+    if (add_checked_prefix(path, bytes, hash, header.size(), checksum) != header)
         throw refused_file(path, "the series has other columns than this version of jostle writes",
                            "Go on with the jostle that wrote it, or start again with --fresh", 1);
     return checksum;
@@ -99,6 +106,11 @@ void add_row(SeriesTable& table, int line_number, std::string_view line) {
 
 SeriesFile::SeriesFile(AppendFile file, std::vector<SeriesColumn> columns)
     : file_(std::move(file)), columns_(std::move(columns)) {}
+
+void require_same_bytes(const std::string& path, std::uint64_t bytes, std::uint64_t hash) {
+    RunningChecksum checksum;
+    add_checked_prefix(path, bytes, hash, 0, checksum);
+}
 
 SeriesFile SeriesFile::create(const std::string& path, std::vector<SeriesColumn> columns) {
     SeriesFile series(AppendFile(path), std::move(columns));

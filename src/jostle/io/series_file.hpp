@@ -19,6 +19,10 @@ struct SeriesColumn {
     std::string sign;        ///< sign convention, empty where none is needed
 };
 
+/// Throws InputError if the first `bytes` bytes of a table do not have this checksum; what its columns are does not
+/// matter.
+void require_same_bytes(const std::string& path, std::uint64_t bytes, std::uint64_t hash);
+
 /// series.csv while it is written: a header line, then one row per output step.
 ///
 /// Every row is one write(2) of one line; a number is written with the fewest digits that give back the same double,

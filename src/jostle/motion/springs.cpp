@@ -1,11 +1,9 @@
 #include "jostle/motion/springs.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <unordered_map>
 
 #include "jostle/error/require_value.hpp"
-#include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
 
@@ -17,15 +15,6 @@ Springs::Springs(std::vector<Spring> springs, const Box& box, const Mobility& mo
         require_value(std::isfinite(spring.rest_length) && spring.rest_length >= 0.0, "rest_length", spring.rest_length,
                       "is no rest length of a spring", ">= 0, finite");
     }
-}
-
-void Springs::add_to(Velocities& known, const Rods& rods, const StepContext& /*context*/) const {
-    assert(known.size() == rods.size());
-    const Velocities own = velocities(rods, pulls(rods));
-    parallel_for(rods.size(), [&](std::size_t i) {
-        known.linear[i] += own.linear[i];
-        known.angular[i] += own.angular[i];
-    });
 }
 
 Velocities Springs::velocities(const Rods& rods, std::span<const SpringPull> pulls) const {

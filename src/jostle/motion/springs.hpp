@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "jostle/mobility/mobility.hpp"
-#include "jostle/motion/motion.hpp"
 #include "jostle/rods/spring.hpp"
 
 namespace jostle {
@@ -12,15 +11,12 @@ namespace jostle {
 /// Springs between rods: U = M F with their forces and torques as the step begins (theory, eq. 2.16).
 ///
 /// Explicit in time: steps must be short beside what springs need to relax, see `spring_relaxation`.
-class Springs final : public Motion {
+class Springs {
 public:
     /// `mobility` must outlive this object and be up to date with the rods.
     Springs(std::vector<Spring> springs, const Box& box, const Mobility& mobility);
 
-    /// Throws InputError if a spring names a rod that is not there.
-    void add_to(Velocities& known, const Rods& rods, const StepContext& context) const override;
-
-    /// Their pulls as the rods stand, one a spring. Errors: as `add_to`.
+    /// Their pulls as the rods stand, one a spring. Throws InputError if a spring names a rod that is not there.
     std::vector<SpringPull> pulls(const Rods& rods) const { return spring_pulls(springs_, rods, box_); }
 
     /// The part of U_known (N) that these pulls give.

@@ -62,9 +62,7 @@ void Simulation::add_springs() {
         throw InputError({.key = "springs.file",
                           .problem = "springs hold rods that stay, and cells divide and die",
                           .suggestion = "Remove [springs] or [growth]"});
-    auto springs = std::make_unique<Springs>(settings_.springs, box_, *mobility_);
-    springs_ = springs.get();
-    motions_.push_back(std::move(springs));
+    springs_.emplace(settings_.springs, box_, *mobility_);
 }
 
 /// Makes everything that belongs to rows anew.

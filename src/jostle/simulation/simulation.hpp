@@ -81,6 +81,7 @@ private:
     void renumber();
     void lengthen();
     void find_known_velocity();
+    void pull_springs();
     void find_contacts(StepReport& report);
     void solve_contacts(StepReport& report);
     void repel(StepReport& report);
@@ -110,7 +111,7 @@ private:
     std::unique_ptr<Mobility> mobility_;
     std::vector<std::unique_ptr<Motion>> motions_;
     SimulationSettings settings_;
-    const Springs* springs_ = nullptr;  ///< among the motions; none: nullptr
+    std::optional<Springs> springs_;
     std::optional<Growth> growth_;
     std::vector<LineageEvent> lineage_;
     std::vector<std::uint64_t> ids_before_;  ///< (N) of the rows in the last step, where cells may have died since
@@ -119,7 +120,8 @@ private:
     double mean_diameter_ = 0.0, mean_length_ = 0.0;
     std::vector<double> largest_shift_;  ///< (N) each rod's part in the shift of a gap, at most
     Velocities known_;                   ///< (N) U_known
-    Velocities by_springs_;              ///< (N) the springs' part of it; (0) without springs
+    std::vector<SpringPull> pulls_;      ///< of the springs
+    Velocities by_springs_;              ///< (N) their part of U_known; (0) without springs
     std::vector<double> displacement_;   ///< (N) by it, of any point of the rod, at most
     double push_allowance_ = 0.0, travel_ = 0.0, margin_ = 0.0, range_ = 0.0;  ///< of this step (RodMotion)
     struct {

@@ -106,6 +106,7 @@ void Simulation::lengthen() {
 void Simulation::find_known_velocity() {
     parallel_for(rods_.size(), [&](std::size_t i) { known_.linear[i] = known_.angular[i] = Vec3{}; });
     for (const auto& cause : motions_) cause->add_to(known_, rods_, {settings_.seed, clock_.step, settings_.time_step});
+    if (springs_) pull_springs();
     parallel_for(rods_.size(), [&](std::size_t i) {
         moved_.centre[i] = rods_.centre[i] + settings_.time_step * known_.linear[i];
         moved_.axis[i] = rotated(rods_.axis[i], settings_.time_step * known_.angular[i]);
@@ -113,6 +114,16 @@ void Simulation::find_known_velocity() {
                                                  0.5 * rods_.length[i]);
     });
     find_allowances();
+}
+
+// Theory 2.7: the springs' part of U_known.
+void Simulation::pull_springs() {
+    pulls_ = springs_->pulls(rods_);
+    by_springs_ = springs_->velocities(rods_, pulls_);
+    parallel_for(rods_.size(), [&](std::size_t i) {
+        known_.linear[i] += by_springs_.linear[i];
+        known_.angular[i] += by_springs_.angular[i];
+    });
 }
 
 // Theory 2.2: all pairs of points that may touch in this step.
@@ -282,15 +293,13 @@ const std::vector<Vec3>& Simulation::turned_half_way() {
 
 // Angular velocity that springs give to a rod.
 Vec3 Simulation::turned_by_springs(std::uint32_t row) const {
-    return springs_ == nullptr ? Vec3{} : by_springs_.angular[row];
+    return springs_ ? by_springs_.angular[row] : Vec3{};
 }
 
 // Theory 1, eq. (1.16): the forces of springs as the step began, with moments half way through what springs and
 // contacts do in it (eq. 1.17).
 void Simulation::measure_spring_stress(StepReport& report) {
-    if (springs_ == nullptr) return;
-    const std::vector<SpringPull> pulls = springs_->pulls(rods_);
-    by_springs_ = springs_->velocities(rods_, pulls);
+    if (!springs_) return;
     Velocities pushed = by_springs_;
     parallel_for(solution_.rods.size(), [&](std::size_t place) {
         const std::uint32_t row = solution_.rods[place];
@@ -303,7 +312,7 @@ void Simulation::measure_spring_stress(StepReport& report) {
         centre[i] = rods_.centre[i] + half_step * pushed.linear[i];
         axis[i] = rotated(rods_.axis[i], half_step * pushed.angular[i]);
     });
-    report.spring_virial = sum_of_spring_stresses(settings_.springs, pulls, rods_, centre, axis);
+    report.spring_virial = sum_of_spring_stresses(settings_.springs, pulls_, rods_, centre, axis);
 }
 
 // Theory 2.4: q^{k+1} = q^k + dt (U_known + U_C), axes by the exponential map.

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "jostle/rods/rods.hpp"
 #include "jostle/stress/refuse.hpp"
 #include "jostle/stress/spherocylinder_moments.hpp"
 
@@ -50,8 +51,7 @@ BodyMoments sphere_moments(double diameter) {
 BodyMoments spherocylinder_moments(const Vec3& axis, double length, double diameter) {
     if (!(std::fabs(norm(axis) - 1.0) <= 1e-6)) refuse("axis", words_of(axis), "is no unit vector", "length 1 to 1e-6");
     const SpherocylinderMoments moments = spherocylinder_moments(length, diameter);
-    const double mass = pi * diameter * diameter * (length / 4.0 + diameter / 6.0);
-    return {mass, {}, second_moment(moments, normalised(axis))};
+    return {rod_volume(length, diameter), {}, second_moment(moments, normalised(axis))};
 }
 
 BodyMoments box_moments(const Vec3& edges, const Mat3& orientation) {
