@@ -8,6 +8,7 @@
 #include "jostle/contact/collision_search.hpp"
 #include "jostle/growth/growth.hpp"
 #include "jostle/mobility/mobility.hpp"
+#include "jostle/motion/motion.hpp"
 #include "jostle/motion/springs.hpp"
 #include "jostle/rods/box.hpp"
 #include "jostle/simulation/contact_solver.hpp"
