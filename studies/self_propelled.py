@@ -85,10 +85,11 @@ class Shape:
 def evaluate(report, runs_by_name, quick):
     shapes = [Shape(beta, phi, [run for run in runs_by_name.values() if run.name.startswith(f"L{beta}_")])
               for beta, phi in SHAPES.items()]
-    rows, lines = [], []
+    rows, lines, farthest = [], [], 0.0
     for shape in shapes:
         (intercept, slope), errors = shape.line()
         residuals = shape.value - intercept - slope * shape.speed
+        farthest = max(farthest, abs(residuals).max())
         formula = shape.effective_length(shape.speed)
         for k, speed in enumerate(SPEEDS):
             rows.append([str(shape.beta), f"{speed:g}", with_error(shape.value[k], shape.error[k], 4),
@@ -103,10 +104,14 @@ def evaluate(report, runs_by_name, quick):
         beyond = abs(formula[-1] - shape.value[-1]) / shape.error[-1]
         report.require(f"L/D = {shape.beta}: the effective length is off at U_0 = {SPEEDS[-1]:g} L D_R, in standard errors",
                        beyond, lower=5)
+    longest, shortest = shapes[-1], shapes[0]
+    report.require(f"at U_0 = {SPEEDS[-1]:g} L D_R, L/D = {longest.beta} over L/D = {shortest.beta}: below 1, where the effective length has more",
+                   longest.value[-1] / shortest.value[-1], upper=1.0)
     report.table("Pi_col/(B2 n^2 kT), its distance from a straight line, and what the effective length would give.",
                  ["L/D", "U_0/(L D_R)", "Pi_col/(B2 n^2 kT)", "residual", "effective length"], rows)
     report.table("Straight lines through the six points of each shape; chi squared has four degrees of freedom.",
                  ["L/D", "virial series at rest", "measured at rest", "intercept", "slope", "chi squared"], lines)
+    report.remark(f"The points bend: straight lines do not fit them within their errors, but none is farther from its line than {farthest:.3f}.")
     report.numbers(["L_over_D", "U_0_over_L_D_R", "collision_pressure_over_B2_n2_kT", "standard_error", "effective_length"],
                    [[shape.beta, speed, shape.value[k], shape.error[k], shape.effective_length(speed)]
                     for shape in shapes for k, speed in enumerate(SPEEDS)])
