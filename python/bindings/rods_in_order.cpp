@@ -1,7 +1,6 @@
 #include "bindings/rods_in_order.hpp"
 
 #include "bindings/bindings.hpp"
-#include "jostle/rods/space_filling_order.hpp"
 
 namespace jostle::python {
 
@@ -19,8 +18,6 @@ auto view(std::vector<Element> Rods::*member, py::ssize_t width) {
 }
 
 }  // namespace
-
-RodsInOrder::RodsInOrder(const Rods& rods) : order_(id_order(rods)), rods_(reordered(rods, order_)) {}
 
 void bind_rods(py::module_& module) {
     py::class_<RodsInOrder, std::shared_ptr<RodsInOrder>>(module, "Rods")

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bindings/arrays.hpp"
-#include "jostle/rods/rods.hpp"
+#include "jostle/rods/space_filling_order.hpp"
 
 namespace jostle::python {
 
@@ -12,15 +12,11 @@ namespace jostle::python {
 /// be a view on them (decision 0021).
 class RodsInOrder {
 public:
-    explicit RodsInOrder(const Rods& rods);
+    explicit RodsInOrder(const Rods& rods) : rods_(reordered(rods, id_order(rods))) {}
 
     const Rods& rods() const { return rods_; }
 
-    /// Row of the simulation that row k here was taken from.
-    std::span<const std::uint32_t> order() const { return order_; }
-
 private:
-    std::vector<std::uint32_t> order_;
     Rods rods_;
 };
 

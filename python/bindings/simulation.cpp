@@ -29,7 +29,10 @@ Simulation at_the_start(const SceneInPython& scene) {
 /// Marks that a step is under way.
 class SimulationInPython::Step {
 public:
-    explicit Step(SimulationInPython& owner) : owner_(owner) { owner_.stepping_ = std::this_thread::get_id(); }
+    explicit Step(SimulationInPython& owner) : owner_(owner) {
+        if (!owner_.functions_.empty()) owner_.rods();  // what motions see, before cells lengthen
+        owner_.stepping_ = std::this_thread::get_id();
+    }
     ~Step() {
         owner_.stepping_.reset();
         owner_.rods_.reset();
@@ -118,7 +121,8 @@ const Simulation& SimulationInPython::simulation() const {
 }
 
 std::shared_ptr<RodsInOrder> SimulationInPython::rods() {
-    if (!rods_) rods_ = std::make_shared<RodsInOrder>(simulation().rods());
+    require_rest();
+    if (!rods_) rods_ = std::make_shared<RodsInOrder>(simulation_.rods());
     return rods_;
 }
 
@@ -128,17 +132,17 @@ py::array SimulationInPython::velocities(const Numbers& force, const Numbers& to
     const py::ssize_t count = static_cast<py::ssize_t>(rows.size());
     require_shape(force, {count, 3}, "force");
     require_shape(torque, {count, 3}, "torque");
-    const std::shared_ptr<RodsInOrder> in_order = rods();
+    const std::vector<std::uint32_t> row_of = id_order(rows);  // within a step rows may be numbered anew
     Forces given(rows.size());
     Velocities found(rows.size());
     for (std::size_t k = 0; k < rows.size(); ++k) {
-        given.force[in_order->order()[k]] = forces[k];
-        given.torque[in_order->order()[k]] = torques[k];
+        given.force[row_of[k]] = forces[k];
+        given.torque[row_of[k]] = torques[k];
     }
     simulation_.mobility().apply(rows, given, found);
     Numbers result({count, py::ssize_t{6}});
     for (std::size_t k = 0; k < rows.size(); ++k) {
-        const std::uint32_t row = in_order->order()[k];
+        const std::uint32_t row = row_of[k];
         for (int a = 0; a < 3; ++a) {
             result.mutable_at(static_cast<py::ssize_t>(k), a) = found.linear[row][a];
             result.mutable_at(static_cast<py::ssize_t>(k), a + 3) = found.angular[row][a];

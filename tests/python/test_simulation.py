@@ -340,6 +340,37 @@ def test_push_by_the_mobility_of_the_scene():
     assert np.allclose(pushed.velocities(torque=before.axis)[1], 0, atol=1e-15)
 
 
+def test_velocities_within_a_step_that_numbers_rows_anew(rods):
+    """The first step does: forces go to the rods that they are given for, whoever looked at them before."""
+    force = np.random.default_rng(1).normal(size=(50, 3))
+    found = []
+
+    def motion(rods, clock):
+        found.append(np.hstack(simulation.velocities(force=force)))
+        return 0 * rods.centre
+
+    simulation = jostle.Simulation(rods, motions=motion)
+    expected = np.hstack(simulation.velocities(force=force))
+    assert len(simulation.rods) == 50
+    simulation.step()
+    assert np.array_equal(found[0], expected)
+
+
+def test_motions_see_the_rods_before_the_step(cells):
+    """As long as they were, though cells lengthen as a step begins, and whether someone looked or not."""
+    seen = []
+
+    def motion(rods, clock):
+        seen.append(rods.length.copy())
+        return 0 * rods.centre
+
+    simulation = jostle.Simulation(cells, motions=motion)
+    for look in (False, True):
+        before = state(simulation)["length"] if look else jostle.Simulation(cells).rods.length
+        simulation.step()
+        assert np.array_equal(seen[-1], before)
+
+
 @pytest.mark.parametrize("motion, error, message", [
     (lambda rods, clock: 1 / 0, ZeroDivisionError, "division"),
     (lambda rods, clock: np.zeros((3, 3)), jostle.InputError, "velocities of a motion = an array of shape"),
