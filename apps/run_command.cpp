@@ -144,6 +144,7 @@ private:
     void checkpoint() {
         const auto begin = std::chrono::steady_clock::now();
         files_.write_checkpoint(simulation_, sums_);
+        record_.write(simulation_, "running");  // what a session that is killed has done
         last_checkpoint_ = std::chrono::steady_clock::now();
         const std::chrono::duration<double> took = last_checkpoint_ - begin;
         longest_checkpoint_ = std::max(longest_checkpoint_, took.count());

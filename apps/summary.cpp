@@ -298,8 +298,10 @@ std::string summary_text(const Json& summary) {
     line(entry("pressure_active"), "active pressure");
     line(entry("nematic_order"), "nematic order S");
     line(entry("anisotropy"), "stress anisotropy");
-    if (summary["oracles"].contains("anisotropy"))
+    if (summary["oracles"].contains("anisotropy")) {
+        line(summary["oracles"]["anisotropy"]["measured"], "  along over across");
         line(summary["oracles"]["anisotropy"]["predicted"], "  as equilibrium has");
+    }
     text +=
         fmt::format("{:20} = {:.4g}{}\n", "equilibration time", summary["equilibration_time"].get<double>(),
                     summary["equilibrated"].get<bool>() ? "" : "   WARNING: equilibrium was not reached; run longer");

@@ -1,5 +1,6 @@
 """kill -9 at any moment: the same command goes on from the checkpoint and ends as if nothing had been."""
 
+import json
 import shutil
 import signal
 import subprocess
@@ -55,6 +56,9 @@ def test_killed_at_random_moments(tmp_path, checkpoint_every):
         require_same_results(folder / "run", reference)
         require_every_row(folder / "run", 1, steps)
         assert read_h5md(folder / "run/trajectory.h5")["steps"] == list(range(0, steps + 1, 3))
+        sessions = json.loads((folder / "run/run.json").read_text())["sessions"]
+        for killed, next_one in zip(sessions, sessions[1:]):  # the record follows the checkpoint
+            assert 0 <= next_one["first_step"] - killed["last_step"] <= checkpoint_every and killed["wall_seconds"] > 0
     print(f"kills of each run: {kills}")
     assert sum(kills) >= KILLS
     assert max(kills) >= 2
