@@ -7,7 +7,7 @@ contact problem solved, how many sweeps does it take as the colony grows, and ho
 import numpy
 
 import figures
-from runs import Run, duration
+from runs import Run
 
 TIME_STEP = 0.005  # in which a cell of mean rate lengthens by 0.005 D
 CELLS, END = 200000, 54.6  # a doubling takes 3
@@ -44,7 +44,7 @@ def evaluate(report, runs_by_name, quick):
                      f"{near['iterations'].mean():.0f}", f"{near['max_overlap'].max():.4f}"])
     report.table("The colony as it grows: means over 2 units of time, largest overlap in it.",
                  ["cells", "time", "contacts a cell", "sweeps a step", "largest overlap, D"], rows)
-    report.remark(f"{run.record['steps']} steps to {series['N'][-1]:.0f} cells took {duration(run.wall_seconds)} on {run.threads} threads; "
+    report.remark(f"{run.record['steps']} steps to {series['N'][-1]:.0f} cells took {run.time_taken} on {run.threads} threads; "
                   f"the last steps hold {series['contacts'][-1]:.0f} contacts and take {series['iterations'][-1]:.0f} sweeps.")
     report.numbers(["time", "N", "contacts", "iterations", "max_overlap"],
                    [list(row) for row in zip(series["time"], series["N"], series["contacts"], series["iterations"],

@@ -70,7 +70,8 @@ def section(verdict):
     passed = sum(check["passed"] for check in verdict["checks"])
     lines = [f'## <a name="{verdict["study"]}"></a>{verdict["title"]}', "",
              f"`studies/run {verdict['study']}`: **{'pass' if verdict['passed'] else 'FAIL'}**, {passed} of {len(verdict['checks'])} checks. "
-             f"Runs: {verdict['runs']}, rod steps {verdict['rod_steps']:.2e}, processor time {runs.duration(verdict['processor_seconds'])}, "
+             f"Runs: {verdict['runs']}, rod steps {verdict['rod_steps']:.2e}, processor time "
+             f"{'more than ' if verdict.get('killed') else ''}{runs.duration(verdict['processor_seconds'])}, "
              f"on {', '.join(verdict['processors'])}; jostle {', '.join(verdict['versions'])}.", "", verdict["question"], ""]
     for picture in verdict["figures"]:
         lines += [f"![{picture['caption']}]({picture['file']}.png)", "", picture["caption"], ""]

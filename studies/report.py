@@ -86,6 +86,7 @@ class Report:
             "steps": sum(record["steps"] for record in records),
             "rod_steps": sum(run.record["steps"] * run.summary["rods"] for run in all_runs),
             "processor_seconds": round(sum(session["wall_seconds"] * session["threads"] for session in sessions), 1),
+            "killed": any(run.killed for run in all_runs),
             "processors": sorted({session["processor"] for session in sessions}),
             "versions": sorted({f"{record['version']} ({record['git']})" for record in records}),
         }

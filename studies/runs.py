@@ -87,6 +87,15 @@ class Run:
     def wall_seconds(self):
         return sum(session["wall_seconds"] for session in self.record["sessions"])
 
+    @property
+    def killed(self):
+        """Whether a session of it was, whose time since its last checkpoint is not known."""
+        return any(session["exit_reason"] == "running" for session in self.record["sessions"])
+
+    @property
+    def time_taken(self):
+        return ("more than " if self.killed else "") + duration(self.wall_seconds)
+
     def value(self, *keys):
         """(mean, standard error) of an entry of the summary; an error bar that is missing is an error here."""
         entry = functools.reduce(lambda table, key: table[key], keys, self.summary)
