@@ -1,6 +1,6 @@
 """Pressure of isotropic rods
 
-Is Z right for spheres and for rods of L/D = 1 to 20, at the default time step? Compared with the hard-sphere equation of state and with
+Is Z right for spheres and for rods of L/D = 1 to 20, at the default time step (rms step 0.03 D) and at twice its rms step? Compared with the hard-sphere equation of state and with
 Carnahan-Starling (L/D = 0), with Monte Carlo (2, 5, 10), and where dilute with the virial series to B4 (1, 3, 10, 20). Closed forms of
 Parsons-Lee and Nezbeda are drawn beside it: they are no test for rods.
 """
@@ -22,17 +22,20 @@ SHAPES = {  # L/D: volume fractions
     20: (0.01, 0.02, 0.03, 0.05),
 }
 QUICK_SHAPES = {0: (0.10, 0.40), 1: (0.08,), 2: (0.30,), 5: (0.20,), 10: (0.05,), 20: (0.02,)}
-TOLERANCE = 0.01  # of Z, beside two standard errors: what the time step may cost
+DEFAULT_STEP = 0.03
+AIMS = {DEFAULT_STEP: 0.005, 0.06: 0.01}  # rms step: largest error of Z, beside two standard errors
+QUICK_AIM = 0.01
 
 
 def runs(quick):
-    shapes = QUICK_SHAPES if quick else SHAPES
-    return [Run(name=f"L{beta}_phi{phi:.2f}",
+    shapes, steps = (QUICK_SHAPES, [DEFAULT_STEP]) if quick else (SHAPES, AIMS)
+    return [Run(name=f"L{beta}_phi{phi:.2f}_rms{rms:g}",
                 scene={"seed": 1, "box": {"volume_fraction": phi},
                        "rods": {"count": 500 if quick else 1000, "length": float(beta)},
-                       "solver": {"tolerance": 1e-4}},
-                equilibration=2000 if quick else 20000 if phi * (beta + 1) > 2 or beta >= 10 else 6000,
-                production=8000 if quick else production(beta, phi))
+                       "time": {"rms_step": rms}, "solver": {"tolerance": 1e-4}},
+                equilibration=2000 if quick else int(share * (20000 if phi * (beta + 1) > 2 or beta >= 10 else 6000)),
+                production=8000 if quick else int(share * production(beta, phi)))
+            for rms in steps for share in [DEFAULT_STEP / rms]  # twice the step: half as many, for twice the time
             for beta, volume_fractions in shapes.items() for phi in volume_fractions]
 
 
@@ -42,34 +45,46 @@ def production(beta, phi):
 
 
 def evaluate(report, runs_by_name, quick):
-    rows, numbers, points = [], [], {}
+    rows, numbers, points = {}, [], {}
     for run in runs_by_name.values():
-        beta, phi = run.scene["rods"]["length"], run.scene["box"]["volume_fraction"]
+        beta, phi, rms = run.scene["rods"]["length"], run.scene["box"]["volume_fraction"], run.scene["time"]["rms_step"]
         Z, error = run.value("Z")
         reference = reference_values.best(beta, phi)
-        state = f"L/D = {beta:g}, phi = {phi:.2f}"
+        state = f"L/D = {beta:g}, phi = {phi:.2f}, rms step {rms:g}"
+        aim = QUICK_AIM if quick else AIMS[rms]
         if reference:
-            report.compare(state, (Z, error), reference[:2], TOLERANCE)
+            report.compare(state, (Z, error), reference[:2], aim)
         if beta == 0:
-            report.compare(f"{state}, Carnahan-Starling", (Z, error), (reference_values.carnahan_starling(phi), 0.0),
-                           TOLERANCE)
-        points.setdefault(beta, []).append((phi, Z, error, reference))
+            report.compare(f"{state}, Carnahan-Starling", (Z, error), (reference_values.carnahan_starling(phi), 0.0), aim)
         closed = (reference_values.parsons_lee(beta, phi), reference_values.nezbeda(beta, phi))
-        rows.append([f"{beta:g}", f"{phi:.2f}", with_error(Z, error),
-                     with_error(*reference[:2]) + f" ({reference[2]})" if reference else "",
-                     per_cent(Z, reference[0], math.hypot(error, reference[1])) if reference else "",
-                     *(f"{value:.3f}" for value in closed)])
-        numbers.append([beta, phi, Z, error, *(reference or ("", "", "")), *closed])
-    header = ["L/D", "phi", "Z", "reference", "difference, %", "Parsons-Lee", "Nezbeda"]
-    report.table("Z with its standard error; the difference with that of both values together.", header, rows)
-    report.numbers(["L_over_D", "phi", "Z", "standard_error", "reference", "reference_error", "reference_kind", "parsons_lee",
+        measured = [with_error(Z, error), per_cent(Z, reference[0], math.hypot(error, reference[1])) if reference else ""]
+        if rms == DEFAULT_STEP:
+            points.setdefault(beta, []).append((phi, Z, error, reference))
+            rows[beta, phi] = [f"{beta:g}", f"{phi:.2f}", with_error(*reference[:2]) + f" ({reference[2]})" if reference else "",
+                               *(f"{value:.3f}" for value in closed), *measured]
+        else:
+            rows[beta, phi] += measured
+        numbers.append([beta, phi, rms, Z, error, *(reference or ("", "", "")), *closed])
+    steps = [DEFAULT_STEP] if quick else list(AIMS)
+    report.table("Z with its standard error at each rms step (in D); the difference from the reference with that of both values together.",
+                 ["L/D", "phi", "reference", "Parsons-Lee", "Nezbeda", *(name for rms in steps for name in (f"Z, {rms:g}", "difference, %"))],
+                 list(rows.values()))
+    report.numbers(["L_over_D", "phi", "rms_step", "Z", "standard_error", "reference", "reference_error", "reference_kind", "parsons_lee",
                  "nezbeda"], numbers)
-    deviations = [(abs(Z / reference[0] - 1), beta, phi) for beta, of_shape in points.items()
-                  for phi, Z, _, reference in of_shape if reference]
-    worst, beta, phi = max(deviations)
-    report.remark(f"Worst deviation of {len(deviations)} points with a reference: {100 * worst:.2f} % (L/D = {beta:g}, "
-                  f"phi = {phi:.2f}); root mean square {100 * math.sqrt(sum(d[0]**2 for d in deviations) / len(deviations)):.2f} %.")
+    for rms in steps:
+        report.remark(spread(rms, [row for row in numbers if row[2] == rms]))
     draw(report, points)
+
+
+def spread(rms, numbers):
+    """How far the points of one step are from their references."""
+    deviations = sorted((abs(Z / reference - 1), beta, phi) for beta, phi, _, Z, _, reference, *_ in numbers if reference)
+    worst, beta, phi = deviations[-1]
+    aim = AIMS[rms]
+    mean_square = sum(deviation**2 for deviation, *_ in deviations) / len(deviations)
+    return (f"At rms step {rms:g} the worst deviation of {len(deviations)} points with a reference is {100 * worst:.2f} % (L/D = {beta:g}, phi = {phi:.2f}), "
+            f"the root mean square {100 * math.sqrt(mean_square):.2f} %; {sum(deviation > aim for deviation, *_ in deviations)} are beyond {100 * aim:g} % "
+            f"before their errors are counted. {len(numbers) - len(deviations)} have no reference, and are not judged.")
 
 
 def draw(report, points):
