@@ -69,9 +69,8 @@ class Method:
 
     def longest_step(self, target):
         """(time step, seconds per unit of time) where |deviation| reaches `target`, going up from the smallest step, between
-        two steps in proportion; the last step measured if it is not reached; None if the smallest is beyond. Beyond is
-        what exceeds the target by more than a standard error."""
-        inside = numpy.abs(self.deviation) <= target + self.deviation_error
+        two steps in proportion; the last step measured if it is not reached; None if the smallest is beyond."""
+        inside = numpy.abs(self.deviation) <= target
         if not inside[0]:
             return None
         if inside.all():
@@ -99,7 +98,7 @@ def evaluate(report, runs_by_name, quick):
     report.numbers(["method", "rms_step", "time_step", "Z", "standard_error", "deviation", "deviation_error", "seconds_per_time"],
                 [[m.name, *values] for m in methods for values in
                  zip(m.rms, m.time_step, m.Z, m.error, m.deviation, m.deviation_error, m.seconds)])
-    report.remark(f"The WCA rods have a diameter of {1 / effective_diameter():.4f} D. At an rms step of 0.03 D they pass through each other.")
+    report.remark(f"The WCA rods have a diameter of {1 / effective_diameter():.4f} D.")
     for method in methods:
         if method.name == "hard, plain":
             continue
