@@ -20,10 +20,10 @@ def runs(quick):
     return [Run(name=f"L{beta}_phi{phi:.2f}",
                 scene={"seed": 4, "box": {"volume_fraction": phi},
                        "rods": {"count": 300 if quick else 1000, "length": float(beta), "start": start},
-                       "time": {"rms_step": 0.05}, "solver": {"tolerance": 1e-4},
+                       "solver": {"tolerance": 1e-4},
                        "output": {"stress_conventions": True}},
-                equilibration=4000 if quick else 20000,
-                production=10000 if quick else 60000)
+                equilibration=4000 if quick else 40000,
+                production=10000 if quick else 80000)
             for beta, phi, start in (STATES[1:2] if quick else STATES)]
 
 
