@@ -9,14 +9,16 @@
 #include "jostle/contact/segment_distance.hpp"
 #include "jostle/math/random.hpp"
 #include "jostle/motion/brownian_motion.hpp"
-#include "jostle/simulation/delassus_operator.hpp"
+#include "jostle/parallel/parallel_for.hpp"
+#include "jostle/simulation/sweeper.hpp"
+#include "jostle/simulation/time_step_correction.hpp"
 #include "settled.hpp"
 
 using namespace jostle;
 
 namespace {
 
-constexpr double reach = 0.1;   ///< of each rod, in D: about what a step of rms 0.03 D asks for
+constexpr double reach = 0.1;   ///< of each rod in the search for contacts, in D
 constexpr double travel = 0.4;  ///< of the neighbour list, in D
 
 /// Sets each_takes (seconds), given on how many items one pass over the benchmark's body worked.
@@ -27,22 +29,44 @@ void count_items(benchmark::State& state, std::size_t items_each_pass) {
         Counter(static_cast<double>(items_each_pass), Counter::kIsIterationInvariantRate | Counter::kInvert);
 }
 
-/// The contacts of a settled crowd as it lies now.
-struct Found {
-    explicit Found(const Simulation& simulation)
+/// The neighbours of a settled crowd as it lies now.
+struct Neighbours {
+    explicit Neighbours(const Simulation& simulation)
         : rods(simulation.rods()),
           box(simulation.box()),
           reaches(rods.size(), reach * rods.diameter.front()),
           neighbours(travel * rods.diameter.front()) {
         neighbours.update(rods, box, reaches);
-        find_contacts(rods, box, neighbours, reaches, contacts);
     }
 
     const Rods& rods;
     const Box& box;
     std::vector<double> reaches;
     NeighbourList neighbours;
-    Contacts contacts;
+};
+
+/// The contact problem of a step, with all contacts that it came to have.
+struct PosedProblem {
+    PosedProblem(const Crowd& crowd, std::size_t bodies)
+        : simulation(settled(crowd, bodies)), contacts(contacts_of_step(*simulation)) {
+        b.reserve(contacts.size());
+        for (const Contact& contact : contacts.contact) b.push_back(contact.room / time_step());
+    }
+
+    static const Contacts& contacts_of_step(Simulation& simulation) {
+        for (int k = 0; k < 10; ++k) simulation.step();  // copies begin to forget each other
+        return simulation.contacts();
+    }
+    double time_step() const { return simulation->settings().time_step; }
+    double places_per_contact() const {
+        return static_cast<double>(contact_matrix.rods().size()) / static_cast<double>(contacts.size());
+    }
+
+    std::unique_ptr<Simulation> simulation;
+    const Contacts& contacts;
+    ContactMatrix contact_matrix{contacts, simulation->rods().size()};
+    DelassusOperator matrix{contact_matrix, simulation->rods(), simulation->mobility(), contact_compliance};
+    std::vector<double> b;
 };
 
 void distance_of_segments(benchmark::State& state) {
@@ -79,32 +103,52 @@ void memory(benchmark::State& state) {
 }
 
 /// What an application of A has to read and write at least, a contact: each contact and gamma twice (D and D^T), its
-/// places, its rate; and its share of the rods' mobilities, forces and velocities.
-double bytes_of_application(const ContactMatrix& contact_matrix) {
-    const double contacts = 2 * (sizeof(Contact) + sizeof(ContactMatrix::Ends)) + 2 * sizeof(double);
+/// places, its diagonal (compliance) and its rate; and its share of the rods' mobilities, forces and velocities.
+double bytes_of_application(const PosedProblem& problem) {
+    const double contact = 2 * (sizeof(Contact) + sizeof(ContactMatrix::Ends)) + 4 * sizeof(double);
     const double place = sizeof(DelassusOperator::Rod) + 2 * sizeof(ContactForce) + 2 * sizeof(ContactVelocity);
-    return contacts +
-           place * static_cast<double>(contact_matrix.rods().size()) / static_cast<double>(contact_matrix.size());
+    return contact + place * problem.places_per_contact();
 }
 
 void application_of_matrix(benchmark::State& state, const Crowd& crowd, std::size_t bodies) {
-    const auto simulation_held = settled(crowd, bodies);
-    const Simulation& simulation = *simulation_held;
-    const Found found(simulation);
-    const ContactMatrix contact_matrix(found.contacts, found.rods.size());
-    const DelassusOperator matrix(contact_matrix, found.rods, simulation.mobility());
-    std::vector<double> gamma(matrix.size(), 1.0), rates(matrix.size());
+    const PosedProblem problem(crowd, bodies);
+    std::vector<double> gamma(problem.matrix.size(), 1.0), rates(problem.matrix.size());
     for (auto unused : state) {
-        matrix.apply(gamma, rates);
+        problem.matrix.apply(gamma, rates);
         benchmark::DoNotOptimize(rates.data());
     }
-    count_items(state, matrix.size());
-    state.counters["bytes_each"] = bytes_of_application(contact_matrix);
+    count_items(state, problem.matrix.size());
+    state.counters["bytes_each"] = bytes_of_application(problem);
+}
+
+/// What a sweep has to read and write at least, a contact: a single contact whole, of which the line with its force is
+/// written back, or its part of a pair that touches at several points; and its share of the rods' velocities.
+double bytes_of_sweep(const PosedProblem& problem) {
+    constexpr double line = 64;
+    const auto ends = problem.contact_matrix.ends();
+    const auto same_pair = [](const auto& a, const auto& b) { return a.i == b.i && a.j == b.j; };
+    double bytes = 0.0;
+    for (std::size_t l = 0; l < ends.size();) {
+        std::size_t next = l + 1;
+        while (next < ends.size() && same_pair(ends[next], ends[l])) ++next;
+        bytes += static_cast<double>(next == l + 1 ? sizeof(SweptContact<float>) : sizeof(SweptPair)) + line;
+        l = next;
+    }
+    return bytes / static_cast<double>(ends.size()) + 2 * sizeof(Wide<float>) * problem.places_per_contact();
+}
+
+void sweep_over_all(benchmark::State& state, const Crowd& crowd, std::size_t bodies) {
+    const PosedProblem problem(crowd, bodies);
+    const std::vector<double> start(problem.matrix.size(), 0.0);
+    Sweeper<float> sweeper({problem.matrix, problem.b, problem.time_step(), {}}, 1e-5, start);
+    for (auto unused : state) benchmark::DoNotOptimize(sweeper.sweep(1.1, SweepOver::all));
+    count_items(state, problem.matrix.size());
+    state.counters["bytes_each"] = bytes_of_sweep(problem);
 }
 
 void build_neighbour_list(benchmark::State& state, const Crowd& crowd) {
     const auto simulation = settled(crowd);
-    Found found(*simulation);
+    Neighbours found(*simulation);
     for (auto unused : state) {
         found.neighbours.invalidate();
         benchmark::DoNotOptimize(found.neighbours.update(found.rods, found.box, found.reaches));
@@ -115,12 +159,13 @@ void build_neighbour_list(benchmark::State& state, const Crowd& crowd) {
 
 void find_contacts_on_list(benchmark::State& state, const Crowd& crowd) {
     const auto simulation = settled(crowd);
-    Found found(*simulation);
+    const Neighbours found(*simulation);
+    Contacts contacts;
     for (auto unused : state) {
-        found.contacts.clear();
-        benchmark::DoNotOptimize(find_contacts(found.rods, found.box, found.neighbours, found.reaches, found.contacts));
+        contacts.clear();
+        benchmark::DoNotOptimize(find_contacts(found.rods, found.box, found.neighbours, found.reaches, contacts));
     }
-    state.counters["contacts"] = static_cast<double>(found.contacts.size());
+    state.counters["contacts"] = static_cast<double>(contacts.size());
     count_items(state, found.neighbours.size());
 }
 
@@ -141,15 +186,18 @@ void brownian_noise(benchmark::State& state, const Crowd& crowd) {
 }  // namespace
 
 int main(int count, char** words) {
+    parallel::set_thread_count(1);
     benchmark::Initialize(&count, words);
     if (benchmark::ReportUnrecognizedArguments(count, words)) return 2;
     benchmark::RegisterBenchmark("memory (bytes)", memory);
     benchmark::RegisterBenchmark("segment_distance (pairs)", distance_of_segments);
     for (const std::string name : {"rods/0.20", "rods/0.40"}) {
         const Crowd& crowd = crowd_named(name);
-        for (const std::size_t bodies : {std::size_t{2000}, std::size_t{200000}})
-            benchmark::RegisterBenchmark(("apply_A/" + name + "/" + std::to_string(bodies) + " (contacts)").c_str(),
-                                         application_of_matrix, crowd, bodies);
+        for (const std::size_t bodies : {std::size_t{2000}, std::size_t{200000}, std::size_t{1000000}}) {
+            const std::string state = "/" + name + "/" + std::to_string(bodies) + " (contacts)";
+            benchmark::RegisterBenchmark(("apply_A" + state).c_str(), application_of_matrix, crowd, bodies);
+            benchmark::RegisterBenchmark(("sweep" + state).c_str(), sweep_over_all, crowd, bodies);
+        }
         benchmark::RegisterBenchmark(("build_neighbour_list/" + name + " (rods)").c_str(), build_neighbour_list, crowd);
         benchmark::RegisterBenchmark(("find_contacts/" + name + " (pairs)").c_str(), find_contacts_on_list, crowd);
     }

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <stdexcept>
 
@@ -101,7 +102,9 @@ void measure(const std::string& state, std::uint64_t count, const std::vector<in
         const std::uint64_t wanted =
             steps > 0 ? steps : std::clamp<std::uint64_t>(static_cast<std::uint64_t>(1.0 / once), 16, 2000);
         std::vector<StepReport> reports;
+        const std::clock_t processors_before = std::clock();
         for (std::uint64_t k = 0; k < wanted; ++k) reports.push_back(checked_step(*simulation));
+        const double used = static_cast<double>(std::clock() - processors_before) / CLOCKS_PER_SEC;
         // Means over steps: building the neighbour list, every tenth step or so, is a part of the cost.
         std::array<double, step_phase_count> phase{};
         double contacts = 0.0, active = 0.0, iterations = 0.0, solves = 0.0;
@@ -115,6 +118,8 @@ void measure(const std::string& state, std::uint64_t count, const std::vector<in
             whole.push_back(seconds_of(report));
         }
         const auto total = static_cast<double>(wanted);
+        double wall = 0.0;
+        for (const double seconds : whole) wall += seconds;
         double mean = 0.0;
         for (double& value : phase) mean += (value *= 1e9 / (total * rods));
         fmt::print("{},{},{},{}", state, simulation->rods().size(), thread_count, wanted);
@@ -122,7 +127,7 @@ void measure(const std::string& state, std::uint64_t count, const std::vector<in
         fmt::print(",{:.1f},{:.1f},{:.4f},{:.4f},{:.1f},{:.2f},", mean, 1e9 * median(whole) / rods,
                    contacts / (total * rods), active / (total * rods), iterations / total, solves / total);
         if (rods >= 1e5) fmt::print("{:.0f}", (resident_bytes() - bytes_before) / rods);  // else the settling shows
-        fmt::print("\n");
+        fmt::print(",{:.3f}\n", std::max(0.0, 1.0 - used / (thread_count * wall)));
         std::fflush(stdout);
     }
 }
@@ -133,7 +138,7 @@ int main(int count, char** words) try {
     const Options options = read_options(count, words);
     fmt::print("state,bodies,threads,steps");
     for (const char* phase : step_phase_names) fmt::print(",{}_ns", phase);
-    fmt::print(",step_ns,median_step_ns,contacts_per_body,active_per_body,iterations,solves,bytes_per_body\n");
+    fmt::print(",step_ns,median_step_ns,contacts_per_body,active_per_body,iterations,solves,bytes_per_body,waiting\n");
     for (const std::string& state : options.states)
         for (const std::uint64_t bodies : options.counts) measure(state, bodies, options.threads, options.steps);
     return 0;

@@ -37,14 +37,6 @@ Scene scene_of(const Crowd& crowd) {
     return scene;
 }
 
-Scene solved_by(const Crowd& crowd, SolverMethod method, double tolerance) {
-    Scene scene = scene_of(crowd);
-    scene.solver.method = method;
-    scene.solver.tolerance = tolerance;
-    scene.solver.max_iterations = 20000;
-    return scene;
-}
-
 Simulation simulation_of(const Scene& scene, Assembly assembly, Clock clock) {
     return assemble(scene, assembly.box, std::move(assembly.rods), clock);
 }
@@ -68,15 +60,20 @@ const Assembly& settled_assembly(const Crowd& crowd) {
     return assemblies[crowd.name] = {box, simulation.rods()};
 }
 
-/// Copies side by side: the next number of times, as evenly as it divides, along x, y and z.
+/// The largest divisor of `number` that is not above `limit`.
+std::uint64_t largest_divisor(std::uint64_t number, double limit) {
+    std::uint64_t largest = 1;
+    for (std::uint64_t divisor = 2; static_cast<double>(divisor) <= limit + 1e-9; ++divisor)
+        if (number % divisor == 0) largest = divisor;
+    return largest;
+}
+
+/// Copies side by side, that many times: along x, y and z as evenly as the number divides.
 Assembly copied(const Assembly& one, std::uint64_t times) {
-    const auto root = static_cast<std::uint64_t>(std::ceil(std::cbrt(static_cast<double>(times)) - 1e-9));
-    const std::uint64_t along_x = std::max<std::uint64_t>(root, 1);
-    const std::uint64_t along_y = std::max<std::uint64_t>(
-        static_cast<std::uint64_t>(
-            std::ceil(std::sqrt(static_cast<double>(times) / static_cast<double>(along_x)) - 1e-9)),
-        1);
-    const std::uint64_t along_z = (times + along_x * along_y - 1) / (along_x * along_y);
+    const std::uint64_t along_x = largest_divisor(times, std::cbrt(static_cast<double>(times)));
+    const std::uint64_t in_layer = times / along_x;
+    const std::uint64_t along_y = largest_divisor(in_layer, std::sqrt(static_cast<double>(in_layer)));
+    const std::uint64_t along_z = in_layer / along_y;
     Assembly all{one.box, {}};
     const std::array<std::uint64_t, 3> number = {along_x, along_y, along_z};
     for (int k = 0; k < 3; ++k) all.box.edges[k] *= static_cast<double>(number[static_cast<std::size_t>(k)]);
@@ -113,15 +110,19 @@ const Crowd& crowd_named(const std::string& name) {
     throw std::out_of_range("no state of the name " + name);
 }
 
-std::unique_ptr<Simulation> settled(const Crowd& crowd, std::uint64_t count, SolverMethod method, double tolerance) {
+std::unique_ptr<Simulation> settled(const Crowd& crowd, std::uint64_t count, double tolerance) {
     const std::uint64_t times = (count + settled_count - 1) / settled_count;
-    return std::make_unique<Simulation>(
-        simulation_of(solved_by(crowd, method, tolerance), copied(settled_assembly(crowd), times), {}));
+    Scene scene = scene_of(crowd);
+    scene.solver.tolerance = tolerance;
+    return std::make_unique<Simulation>(simulation_of(scene, copied(settled_assembly(crowd), times), {}));
 }
 
-std::unique_ptr<Simulation> continued(const Crowd& crowd, const Simulation& from, SolverMethod method, double tolerance,
-                                      double range) {
-    Scene scene = solved_by(crowd, method, tolerance);
-    if (range > 0.0) scene.contact.range = range;
+std::unique_ptr<Simulation> continued(const Crowd& crowd, const Simulation& from, const SolvedBy& how) {
+    Scene scene = scene_of(crowd);
+    scene.solver.method = how.method;
+    scene.solver.tolerance = how.tolerance;
+    scene.solver.max_iterations = 20000;
+    scene.contact.brownian_correction = how.contacts == ContactKind::compliant;
+    if (how.range > 0.0) scene.contact.range = how.range;
     return std::make_unique<Simulation>(simulation_of(scene, {from.box(), from.rods()}, from.clock()));
 }

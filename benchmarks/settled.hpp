@@ -28,12 +28,21 @@ const Crowd& crowd_named(const std::string& name);
 
 /// A simulation of at least `count` bodies in that state: a start of 2000, made once, that has made its settling steps,
 /// copied side by side as often as needed. The copies, moved by noise of their own, forget each other within some tens
-/// of steps. Solved to `tolerance` (in D) by `method`.
+/// of steps. Solved by the default method to `tolerance` (in D).
 std::unique_ptr<jostle::Simulation> settled(const Crowd& crowd, std::uint64_t count = settled_count,
-                                            jostle::SolverMethod method = jostle::SolverMethod::automatic,
                                             double tolerance = 1e-5);
 
-/// A simulation of the crowd that goes on from where another stands. `range` (in D): contacts with a smaller gap are
-/// all in the contact problem.
-std::unique_ptr<jostle::Simulation> continued(const Crowd& crowd, const jostle::Simulation& from,
-                                              jostle::SolverMethod method, double tolerance, double range);
+/// Contacts that give way a little under their force (theory, section 3), as the time-step correction has them, or the
+/// paper's hard ones.
+enum class ContactKind { compliant, hard };
+
+/// How the contact problem of a step is posed and solved.
+struct SolvedBy {
+    jostle::SolverMethod method;
+    double tolerance;  ///< in D
+    double range;      ///< contacts with a smaller gap (in D) are all in the problem; 0: only those that may collide
+    ContactKind contacts;
+};
+
+/// A simulation of the crowd that goes on, cold, from where another stands.
+std::unique_ptr<jostle::Simulation> continued(const Crowd& crowd, const jostle::Simulation& from, const SolvedBy& how);

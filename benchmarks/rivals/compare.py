@@ -49,8 +49,6 @@ diameter = {diameter}
 rms_step = {rms_step}
 equilibration = 0.0
 production = 1e7
-[solver]
-tolerance = 1e-4
 [output]
 series_every = 10
 trajectory_every = {trajectory_every}
