@@ -12,7 +12,7 @@ namespace jostle::python {
 
 namespace {
 
-/// A matrix in compressed rows: row k has the elements begin[k] ... begin[k + 1] - 1. Dense ones are given so, too.
+/// A matrix in compressed rows: row k has the elements begin[k] ... begin[k + 1] - 1.
 class MatrixOfRows final : public LinearOperator {
 public:
     MatrixOfRows(std::span<const std::int64_t> begin, std::span<const std::int64_t> column,

@@ -82,7 +82,8 @@ Rods pushed_apart(Rods rods, const Box& box, bool turning, const Scene& scene) {
                                     "overlap: after {} rounds of pushing apart {:.3g} D are left",
                                     rods.size(), scene.rods.length, total_volume(rods) / box.volume(), result.rounds,
                                     result.overlap / scene.rods.diameter),
-             .suggestion = "Use a lower volume fraction, a roomier box, or start = \"aligned\" or \"lattice\""});
+             .suggestion = turning ? "Use a lower volume fraction, a roomier box, or start = \"aligned\" or \"lattice\""
+                                   : "Use a lower volume fraction, a roomier box, or start = \"lattice\""});
     }
     rods.image.assign(rods.size(), Image{0, 0, 0});
     return reordered(rods, id_order(rods));  // shaking has renumbered them

@@ -9,9 +9,9 @@ namespace jostle {
 
 /// The rods of a scene before the first step, with ids 0, 1, 2, ...; a pure function of the scene (seed included).
 ///
-/// "random":  centres and axes uniform, drawn anew where rods overlap; what still overlaps after 100 draws (1000 of a
-/// few) is pushed apart by
-///            contact forces, and shaken by large Brownian steps, which leaves the rods close to equilibrium;
+/// "random":  centres and axes uniform, drawn anew where rods overlap; what still overlaps after 100 draws (1000 where
+///            there are few rods) is pushed apart by contact forces, and shaken by large Brownian steps, which leaves
+///            the rods close to equilibrium;
 /// "aligned": centres uniform, all axes along `rods.axis`, pushed apart without turning;
 /// "lattice": rows of rods along `rods.axis` (a direction of the box), evenly spaced;
 /// "file":    `from_file`, checked for overlaps.
