@@ -24,13 +24,14 @@ Is the pressure right, is the anisotropy of the stress, and what does a time ste
     studies/run page
 
 from runs of the program itself; one study alone by `studies/run NAME`, in a minute or less with `--quick` (self_propelled: half an hour). Each leaves its runs, a CSV, PNG, SVG and a
-verdict in studies/results/NAME, and exits 0 only if every check has passed. References: [studies/reference](../../studies/reference/README.md).
+verdict in studies/results/NAME, and exits 0 only if every check has passed. Steps of passive rods are solved to `solver.tolerance` = 1e-4 D, ten times the default, a three hundredth of what a step moves a rod. References: [studies/reference](../../studies/reference/README.md).
 """
 
 # How a section begins: what the overview is made of.
 TITLE = re.compile(r'## <a name="(?P<name>\w+)"></a>(?P<title>.*)\n\n'
                    r"`studies/run \w+`: \*\*(?P<verdict>\w+)\*\*, (?P<checks>\d+ of \d+) checks\. "
-                   r"Runs: (?P<runs>\d+), rod steps (?P<rod_steps>\S+), processor time (?P<time>.+?), ")
+                   r"Runs: (?P<runs>\d+), rod steps (?P<rod_steps>\S+), processor time (?P<time>.+?), "
+                   r"on (?P<machine>.+?); jostle (?P<version>.+?)\.\n")
 
 
 def write(results, names):
@@ -62,8 +63,10 @@ def renewed(page, verdicts, names):
 
 def overview(sections):
     begins = [TITLE.match(text) for text in sections]
-    rows = [[f"[{begin['title']}](#{begin['name']})", *begin.group("verdict", "checks", "runs", "rod_steps", "time")] for begin in begins]
-    return report.markdown({"header": ["study", "verdict", "checks passed", "runs", "rod steps", "processor time"], "rows": rows}) + "\n"
+    rows = [[f"[{begin['title']}](#{begin['name']})", *begin.group("verdict", "checks", "runs", "rod_steps", "time", "machine", "version")]
+            for begin in begins]
+    return report.markdown({"header": ["study", "verdict", "checks passed", "runs", "rod steps", "processor time", "machine", "jostle"],
+                            "rows": rows}) + "\n"
 
 
 def section(verdict):
