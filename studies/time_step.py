@@ -19,6 +19,7 @@ QUICK_STEPS = {0.02: 12000, 0.03: 10000, 0.06: 6000, 0.1: 5000}
 AIMS = {0.03: 0.005, 0.06: 0.01}  # rms step: largest error of the corrected Z, beside two standard errors
 SCHEMES = ("plain", "corrected")
 ORDER_UP_TO, FIT_UP_TO = 0.045, 0.1  # rms steps
+LONGEST_PLAIN = 0.1  # at 0.2 rods pass through each other
 
 
 def runs(quick):
@@ -33,7 +34,8 @@ def runs(quick):
                        "solver": {"tolerance": 1e-4}},
                 equilibration=equilibration(beta, rms, production),
                 production=int(share[scheme] * production))
-            for beta, phi in states for scheme in SCHEMES for rms, production in steps.items()]
+            for beta, phi in states for scheme in SCHEMES for rms, production in steps.items()
+            if scheme == "corrected" or rms <= LONGEST_PLAIN]
 
 
 def equilibration(beta, rms, production):
@@ -58,6 +60,11 @@ class Series:
     @property
     def label(self):
         return f"L/D = {self.beta}, phi = {self.phi}"
+
+    def deviation_at(self, rms):
+        """In per cent, as text; empty where it was not measured."""
+        point = numpy.flatnonzero(self.rms == rms)
+        return f"{100 * self.deviation[point[0]]:+.2f}({100 * self.deviation_error[point[0]]:.2f})" if len(point) else ""
 
     def order_of_all(self):
         """(order in the step in time, standard error): deviation = c rms^(2 order), the best fit to all steps and where its chi squared is larger by 1; None
@@ -118,11 +125,10 @@ def evaluate(report, runs_by_name, quick):
                in zip(s.rms, s.Z, s.error, s.deviation, s.deviation_error)]
     report.numbers(["L_over_D", "phi", "scheme", "rms_step", "Z", "standard_error", "deviation_per_cent",
                     "deviation_error_per_cent"], numbers)
-    rows = [[f"{s.beta}", f"{s.phi}", s.scheme, *(f"{100 * d:+.2f}({100 * e:.2f})"
-                                                 for d, e in zip(s.deviation, s.deviation_error))]
-            for s in every.values()]
+    every_rms = sorted({rms for s in every.values() for rms in s.rms})
+    rows = [[f"{s.beta}", f"{s.phi}", s.scheme, *(s.deviation_at(rms) for rms in every_rms)] for s in every.values()]
     report.table("Deviation of Z from the reference, in per cent (standard error of both), against the rms step in D.",
-                 ["L/D", "phi", "scheme", *(f"{rms:g}" for rms in next(iter(every.values())).rms)], rows)
+                 ["L/D", "phi", "scheme", *(f"{rms:g}" for rms in every_rms)], rows)
     for s in every.values():
         for rms, aim in AIMS.items() if s.scheme == "corrected" else ():
             point = numpy.flatnonzero(s.rms == rms)[0]
