@@ -56,7 +56,7 @@ def test_threads_wait_briefly_unless_the_environment_says_how(tmp_path, environm
     seen = dict(entry.split("=", 1) for entry in Path(f"/proc/{process.pid}/environ").read_text().split("\0") if entry)
     assert Path(f"/proc/{process.pid}/comm").read_text() == Path(JOSTLE).name + "\n"
     kill(process)
-    expected = environment or {"GOMP_SPINCOUNT": "1000"}
+    expected = environment or {"GOMP_SPINCOUNT": "10000"}
     assert {name: seen[name] for name in ("OMP_WAIT_POLICY", "GOMP_SPINCOUNT") if name in seen} == expected
 
 

@@ -18,9 +18,14 @@ namespace parallel {
 void set_thread_count(int count);
 int thread_count();
 
-/// Takes as many threads as are worth starting for an assembly of so many rods, one for every 2000, and no more than
-/// there are processors; unless their number was set, above or by OMP_NUM_THREADS.
-void suit_thread_count(std::size_t rods);
+/// Whether neither that nor OMP_NUM_THREADS has set it.
+bool thread_count_is_free();
+
+/// As many threads as are worth starting for so many rods: one for every 2000, and no more than there are processors.
+int worthwhile_thread_count(std::size_t rods);
+
+/// Number of threads used by all later loops of this thread, where it is free.
+void suit_thread_count(int count);
 
 /// The part of a loop that the calling thread is to do.
 std::pair<std::size_t, std::size_t> own_share(std::size_t count);
@@ -118,10 +123,19 @@ double parallel_max(std::size_t count, double floor, Value&& value) {
                                    });
 }
 
-/// The largest of 0 and all value(begin, end) over parts of [0, count), some of which may be empty.
+/// The largest of 0 and all value(block, begin, end) over consecutive blocks of `block_size` indices that cover
+/// [0, count).
 template <class Value>
-double parallel_max_of_parts(std::size_t count, Value&& value) {
-    return parallel::max_of_shares(count, count <= parallel::serial_limit, 0.0, value);
+double parallel_max_of_blocks(std::size_t count, std::size_t block_size, Value&& value) {
+    const std::size_t blocks = (count + block_size - 1) / block_size;
+    return parallel::max_of_shares(
+        blocks, count <= parallel::serial_limit, 0.0, [&](std::size_t first, std::size_t last) {
+            double largest = 0.0;
+            for (std::size_t block = first; block < last; ++block)
+                largest = std::max(largest, static_cast<double>(value(block, block * block_size,
+                                                                      std::min((block + 1) * block_size, count))));
+            return largest;
+        });
 }
 
 }  // namespace jostle

@@ -23,9 +23,16 @@ void set_thread_count(int count) {
     chosen = std::max(1, count);
 }
 
-void suit_thread_count(std::size_t rods) {
-    if (chosen > 0 || is_in_environment) return;
-    omp_set_num_threads(static_cast<int>(std::clamp(rods / rods_per_thread, std::size_t{1}, processors)));
+bool thread_count_is_free() {
+    return chosen == 0 && !is_in_environment;
+}
+
+int worthwhile_thread_count(std::size_t rods) {
+    return static_cast<int>(std::clamp(rods / rods_per_thread, std::size_t{1}, processors));
+}
+
+void suit_thread_count(int count) {
+    if (thread_count_is_free()) omp_set_num_threads(count);
 }
 
 int thread_count() {

@@ -10,6 +10,7 @@
 #include "jostle/mobility/mobility.hpp"
 #include "jostle/motion/motion.hpp"
 #include "jostle/motion/springs.hpp"
+#include "jostle/parallel/thread_choice.hpp"
 #include "jostle/rods/box.hpp"
 #include "jostle/simulation/contact_solver.hpp"
 #include "jostle/simulation/step_report.hpp"
@@ -117,6 +118,7 @@ private:
     std::vector<LineageEvent> lineage_;
     std::vector<std::uint64_t> ids_before_;  ///< (N) of the rows in the last step, where cells may have died since
 
+    ThreadChoice threads_;
     CollisionSearch search_;
     double mean_diameter_ = 0.0, mean_length_ = 0.0;
     std::vector<double> largest_shift_;  ///< (N) each rod's part in the shift of a gap, at most

@@ -167,7 +167,7 @@ Rods checked(Rods rods, const Box& box, const Scene& scene) {
 }  // namespace
 
 Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& from_file) {
-    parallel::suit_thread_count(scene.rods.count);
+    parallel::suit_thread_count(parallel::worthwhile_thread_count(scene.rods.count));
     switch (scene.rods.start) {
         case StartKind::random:
             return pushed_apart(scattered_rods(scene, box, std::nullopt), box, true, scene);

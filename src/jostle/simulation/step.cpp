@@ -65,7 +65,7 @@ StepReport Simulation::step() {
     report.rods = rods_.size();
     PhaseTimer timer(report);
 
-    parallel::suit_thread_count(rods_.size());
+    threads_.begin_step(rods_.size());
     renumber();
     std::optional<Lengthening> lengthening;
     if (growth_) {
@@ -93,6 +93,7 @@ StepReport Simulation::step() {
     }
     if (settings_.warm_start) keep_forces();
     timer.finish(StepPhase::advance);
+    threads_.end_step();
     return report;
 }
 

@@ -17,16 +17,13 @@ constexpr double drowsy = 100.0;
 /// tolerance in a sweep.
 constexpr double quiet = 0.5;
 
-/// Appends items for `sources`, those awake before the others if the group was empty.
-template <class Group, class Source, class IsAwake, class MakeItem>
-void append(Group& group, std::vector<Source>& sources, IsAwake&& is_awake, MakeItem&& item_of) {
-    const auto asleep = std::partition(sources.begin(), sources.end(), is_awake);
-    const std::size_t before = group.items.size();
-    const auto awake = static_cast<std::size_t>(asleep - sources.begin());
-    group.items.resize(before + sources.size());
-    parallel_for(sources.size(), [&](std::size_t n) { group.items[before + n] = item_of(sources[n]); });
-    for (std::size_t n = 0; n < awake; ++n, ++group.awake)
-        if (group.awake != before + n) std::swap(group.items[group.awake], group.items[before + n]);
+/// Whether a new contact takes part from the first sweep on: pairs that touch at several points always do.
+template <class Real>
+bool awake_at_first(const SweptContact<Real>& contact) {
+    return contact.b < 0 || contact.gamma > 0;
+}
+bool awake_at_first(const SweptPair&) {
+    return true;
 }
 
 }  // namespace
@@ -56,10 +53,11 @@ double Sweeper<Real>::sweep(double omega, SweepOver over) {
                               all && quiet_velocity_ > 0.0 ? stirred_.data() : nullptr};
     double largest = 0.0;
     const auto pass = [&](auto& group) {
-        const auto items = all ? group.all() : group.awake_ones();
-        largest = std::max(largest, parallel_max_of_parts(items.size(), [&](std::size_t begin, std::size_t end) {
-                               return sweep_over(items.subspan(begin, end - begin), omega, places);
-                           }));
+        const auto in_block = [&](std::size_t block, std::size_t begin, std::size_t end) {
+            const std::size_t count = all ? end - begin : group.awake[block];
+            return sweep_over(std::span(group.items).subspan(begin, count), omega, places);
+        };
+        largest = std::max(largest, parallel_max_of_blocks(group.items.size(), group.block_size, in_block));
     };
     for (Colour& colour : colours_) {
         pass(colour.singles);
@@ -132,14 +130,40 @@ void Sweeper<Real>::colour_pairs() {
 template <class Real>
 void Sweeper<Real>::fill() {
     for (std::size_t k = 0; k < colours_.size(); ++k) {
-        append(
-            colours_[k].singles, new_contacts_[k].singles,
-            [&](std::uint32_t l) { return b_[l] < 0.0 || start_[l] > 0.0; },
-            [&](std::uint32_t l) { return contact_of(l); });
-        append(
-            colours_[k].pairs, new_contacts_[k].pairs, [](const auto&) { return true; },
-            [&](const auto& contacts) { return pair_of(contacts.first, contacts.second); });
+        append(colours_[k].singles, new_contacts_[k].singles, [&](std::uint32_t l) { return contact_of(l); });
+        append(colours_[k].pairs, new_contacts_[k].pairs,
+               [&](const auto& contacts) { return pair_of(contacts.first, contacts.second); });
     }
+}
+
+template <class Real>
+template <class Item, class Source, class MakeItem>
+void Sweeper<Real>::append(Group<Item>& group, const std::vector<Source>& sources, MakeItem&& item_of) {
+    const std::size_t before = group.items.size();
+    group.items.resize(before + sources.size());
+    parallel_for(sources.size(), [&](std::size_t n) { group.items[before + n] = item_of(sources[n]); });
+    group.sort_out(before, [](const Item& item) { return awake_at_first(item); });
+}
+
+template <class Real>
+template <class Item>
+template <class IsAwake>
+void Sweeper<Real>::Group<Item>::sort_out(std::size_t first, IsAwake&& is_awake) {
+    awake.resize((items.size() + block_size - 1) / block_size, 0);
+    const std::size_t known_blocks = first / block_size;
+    parallel_for_blocks(items.size() - known_blocks * block_size, block_size,
+                        [&](std::size_t block, std::size_t begin, std::size_t end) {
+                            block += known_blocks;
+                            begin += known_blocks * block_size;
+                            end += known_blocks * block_size;
+                            std::size_t front = begin + (first > begin ? awake[block] : 0);
+                            for (std::size_t k = std::max(begin, first); k < end; ++k) {
+                                if (!is_awake(items[k])) continue;
+                                if (front != k) std::swap(items[front], items[k]);
+                                ++front;
+                            }
+                            awake[block] = static_cast<std::uint8_t>(front - begin);
+                        });
 }
 
 template <class Real>
@@ -192,25 +216,14 @@ SweptPair Sweeper<Real>::pair_of(std::uint32_t first, std::uint32_t count) const
     return pair;
 }
 
-/// Brings the items that are awake to the front.
 template <class Real>
 template <class Item>
 void Sweeper<Real>::find_awake(Group<Item>& group) {
-    const auto is_awake = [&](const Item& item) {
+    group.sort_out(0, [&](const Item& item) {
         const auto moves = [&](std::uint32_t place) { return static_cast<double>(stirred_[place]) > quiet_velocity_; };
         if (!stirred_.empty() && !moves(item.i) && !moves(item.j)) return false;
         return may_push(item, velocities_.data(), drowsy_velocity_);
-    };
-    std::vector<std::uint8_t> awake(group.items.size());
-    parallel_for(awake.size(), [&](std::size_t k) { awake[k] = is_awake(group.items[k]) ? 1 : 0; });
-    std::size_t front = 0;
-    for (std::size_t back = awake.size();;) {
-        while (front < back && awake[front] == 1) ++front;
-        while (front < back && awake[back - 1] == 0) --back;
-        if (front == back) break;
-        std::swap(group.items[front++], group.items[--back]);
-    }
-    group.awake = front;
+    });
 }
 
 /// Calls body(number, force) for all contacts; those of a colour in parallel.
@@ -221,8 +234,8 @@ void Sweeper<Real>::for_all_forces(Body&& body) {
         parallel_for(items.size(), [&](std::size_t k) { for_forces(items[k], body); });
     };
     for (Colour& colour : colours_) {
-        pass(colour.singles.all());
-        pass(colour.pairs.all());
+        pass(std::span(colour.singles.items));
+        pass(std::span(colour.pairs.items));
     }
 }
 

@@ -39,14 +39,18 @@ public:
     void refresh(ContactSolution& solution);
 
 private:
-    /// Contacts of one kind and colour. Their order does not matter to the result, so those awake come first.
+    /// Contacts of one kind and colour. Their order does not matter to the result: those awake come first in each block
+    /// of as many as stay in a near cache with their rods' velocities.
     template <class Item>
     struct Group {
+        static constexpr std::size_t block_size = 128;
         std::vector<Item> items;
-        std::size_t awake = 0;
+        std::vector<std::uint8_t> awake;  ///< (blocks) how many are
 
-        std::span<Item> all() { return items; }
-        std::span<Item> awake_ones() { return std::span(items).first(awake); }
+        /// Brings the items from `first` on that are awake to the front of their blocks; of those before, as many are
+        /// as `awake` tells.
+        template <class IsAwake>
+        void sort_out(std::size_t first, IsAwake&& is_awake);
     };
     struct Colour {
         Group<SweptContact<Real>> singles;
@@ -61,6 +65,8 @@ private:
     void fill();
     SweptContact<Real> contact_of(std::uint32_t l) const;
     SweptPair pair_of(std::uint32_t first, std::uint32_t count) const;
+    template <class Item, class Source, class MakeItem>
+    static void append(Group<Item>& group, const std::vector<Source>& sources, MakeItem&& item_of);
     template <class Item>
     void find_awake(Group<Item>& group);
     template <class Body>
