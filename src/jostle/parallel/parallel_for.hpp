@@ -123,19 +123,17 @@ double parallel_max(std::size_t count, double floor, Value&& value) {
                                    });
 }
 
-/// The largest of 0 and all value(block, begin, end) over consecutive blocks of `block_size` indices that cover
-/// [0, count).
+/// The largest of 0 and all value(block) over [0, count), on one thread where the blocks hold too few items, so many in
+/// all, to be worth more.
 template <class Value>
-double parallel_max_of_blocks(std::size_t count, std::size_t block_size, Value&& value) {
-    const std::size_t blocks = (count + block_size - 1) / block_size;
-    return parallel::max_of_shares(
-        blocks, count <= parallel::serial_limit, 0.0, [&](std::size_t first, std::size_t last) {
-            double largest = 0.0;
-            for (std::size_t block = first; block < last; ++block)
-                largest = std::max(largest, static_cast<double>(value(block, block * block_size,
-                                                                      std::min((block + 1) * block_size, count))));
-            return largest;
-        });
+double parallel_max_of_blocks(std::size_t count, std::size_t items, Value&& value) {
+    return parallel::max_of_shares(count, items <= parallel::serial_limit, 0.0,
+                                   [&](std::size_t begin, std::size_t end) {
+                                       double largest = 0.0;
+                                       for (std::size_t block = begin; block < end; ++block)
+                                           largest = std::max(largest, static_cast<double>(value(block)));
+                                       return largest;
+                                   });
 }
 
 }  // namespace jostle

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 
 #include "jostle/parallel/parallel_for.hpp"
 
@@ -53,11 +54,11 @@ double Sweeper<Real>::sweep(double omega, SweepOver over) {
                               all && quiet_velocity_ > 0.0 ? stirred_.data() : nullptr};
     double largest = 0.0;
     const auto pass = [&](auto& group) {
-        const auto in_block = [&](std::size_t block, std::size_t begin, std::size_t end) {
-            const std::size_t count = all ? end - begin : group.awake[block];
-            return sweep_over(std::span(group.items).subspan(begin, count), omega, places);
-        };
-        largest = std::max(largest, parallel_max_of_blocks(group.items.size(), group.block_size, in_block));
+        const std::size_t items = all ? group.items.size() : group.all_awake;
+        largest = std::max(largest, parallel_max_of_blocks(group.awake.size(), items, [&](std::size_t number) {
+                               const auto block = group.block(number);
+                               return sweep_over(all ? block : block.first(group.awake[number]), omega, places);
+                           }));
     };
     for (Colour& colour : colours_) {
         pass(colour.singles);
@@ -149,21 +150,22 @@ template <class Real>
 template <class Item>
 template <class IsAwake>
 void Sweeper<Real>::Group<Item>::sort_out(std::size_t first, IsAwake&& is_awake) {
+    const std::size_t known_blocks = first / block_size;  // with nothing new
     awake.resize((items.size() + block_size - 1) / block_size, 0);
-    const std::size_t known_blocks = first / block_size;
     parallel_for_blocks(items.size() - known_blocks * block_size, block_size,
-                        [&](std::size_t block, std::size_t begin, std::size_t end) {
-                            block += known_blocks;
-                            begin += known_blocks * block_size;
-                            end += known_blocks * block_size;
-                            std::size_t front = begin + (first > begin ? awake[block] : 0);
-                            for (std::size_t k = std::max(begin, first); k < end; ++k) {
-                                if (!is_awake(items[k])) continue;
-                                if (front != k) std::swap(items[front], items[k]);
+                        [&](std::size_t new_block, std::size_t, std::size_t) {
+                            const std::size_t number = known_blocks + new_block, begin = number * block_size;
+                            const auto in_block = block(number);
+                            std::size_t k = first > begin ? first - begin : 0;
+                            std::size_t front = k > 0 ? awake[number] : 0;
+                            for (; k < in_block.size(); ++k) {
+                                if (!is_awake(in_block[k])) continue;
+                                if (front != k) std::swap(in_block[front], in_block[k]);
                                 ++front;
                             }
-                            awake[block] = static_cast<std::uint8_t>(front - begin);
+                            awake[number] = static_cast<std::uint8_t>(front);
                         });
+    all_awake = std::accumulate(awake.begin(), awake.end(), std::size_t{0});
 }
 
 template <class Real>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -46,6 +47,12 @@ private:
         static constexpr std::size_t block_size = 128;
         std::vector<Item> items;
         std::vector<std::uint8_t> awake;  ///< (blocks) how many are
+        std::size_t all_awake = 0;
+
+        std::span<Item> block(std::size_t number) {
+            const std::size_t begin = number * block_size;
+            return std::span(items).subspan(begin, std::min(block_size, items.size() - begin));
+        }
 
         /// Brings the items from `first` on that are awake to the front of their blocks; of those before, as many are
         /// as `awake` tells.
