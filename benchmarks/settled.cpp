@@ -110,11 +110,9 @@ const Crowd& crowd_named(const std::string& name) {
     throw std::out_of_range("no state of the name " + name);
 }
 
-std::unique_ptr<Simulation> settled(const Crowd& crowd, std::uint64_t count, double tolerance) {
+std::unique_ptr<Simulation> settled(const Crowd& crowd, std::uint64_t count) {
     const std::uint64_t times = (count + settled_count - 1) / settled_count;
-    Scene scene = scene_of(crowd);
-    scene.solver.tolerance = tolerance;
-    return std::make_unique<Simulation>(simulation_of(scene, copied(settled_assembly(crowd), times), {}));
+    return std::make_unique<Simulation>(simulation_of(scene_of(crowd), copied(settled_assembly(crowd), times), {}));
 }
 
 std::unique_ptr<Simulation> continued(const Crowd& crowd, const Simulation& from, const SolvedBy& how) {

@@ -28,9 +28,8 @@ const Crowd& crowd_named(const std::string& name);
 
 /// A simulation of at least `count` bodies in that state: a start of 2000, made once, that has made its settling steps,
 /// copied side by side as often as needed. The copies, moved by noise of their own, forget each other within some tens
-/// of steps. Solved by the default method to `tolerance` (in D).
-std::unique_ptr<jostle::Simulation> settled(const Crowd& crowd, std::uint64_t count = settled_count,
-                                            double tolerance = 1e-5);
+/// of steps. Solved by the default method to the default tolerance.
+std::unique_ptr<jostle::Simulation> settled(const Crowd& crowd, std::uint64_t count = settled_count);
 
 /// Contacts that give way a little under their force (theory, section 3), as the time-step correction has them, or the
 /// paper's hard ones.
