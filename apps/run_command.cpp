@@ -22,11 +22,13 @@
 #include "jostle/simulation/rod_size.hpp"
 #include "jostle/simulation/step_failure.hpp"
 #include "post_mortem.hpp"
+#include "production_window.hpp"
 #include "progress_line.hpp"
 #include "run_files.hpp"
 #include "run_record.hpp"
 #include "stop_request.hpp"
 #include "summary.hpp"
+#include "summary_text.hpp"
 #include "version.hpp"
 
 using namespace jostle;

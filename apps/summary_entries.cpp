@@ -1,0 +1,77 @@
+#include "summary_entries.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace jostle;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+void set_null(Json& entry) {
+    if (!entry.is_array()) entry = nullptr;
+    for (Json& element : entry) set_null(element);
+}
+
+}  // namespace
+
+std::vector<double> from_row(const std::vector<double>& column, std::size_t first) {
+    return {column.begin() + static_cast<std::ptrdiff_t>(std::min(first, column.size())), column.end()};
+}
+
+double mean_of(const std::vector<double>& column) {
+    return average(column).mean;
+}
+
+Columns window_columns(const SeriesTable& series, std::size_t first, std::span<const char* const> names) {
+    Columns columns;
+    for (const char* name : names) columns.push_back(from_row(series.column(name), first));
+    return columns;
+}
+
+Json optional_number(const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json described(const Average& average, const std::string& unit) {
+    Json entry = {{"mean", average.mean},
+                  {"standard_error", optional_number(average.standard_error)},
+                  {"n_eff", average.effective_samples},
+                  {"standard_deviation", average.standard_deviation},
+                  {"correlation_time_rows", average.correlation_time}};
+    if (!average.no_error_reason.empty()) entry["no_standard_error_because"] = average.no_error_reason;
+    if (!unit.empty()) entry["unit"] = unit;
+    return entry;
+}
+
+Json described(const Estimate& estimate) {
+    Json entry = {{"mean", std::isfinite(estimate.value) ? Json(estimate.value) : Json(nullptr)},
+                  {"standard_error", optional_number(estimate.standard_error)},
+                  {"n_eff", estimate.effective_samples}};
+    if (!estimate.no_error_reason.empty()) entry["no_standard_error_because"] = estimate.no_error_reason;
+    return entry;
+}
+
+Json tensor_entry(const Columns& columns, const std::string& unit) {
+    Json mean = Json::array(), error = Json::array();
+    for (std::size_t a = 0; a < 3; ++a) {
+        Json mean_row = Json::array(), error_row = Json::array();
+        for (std::size_t b = 0; b < 3; ++b) {
+            const Average element = average(columns[3 * a + b]);
+            mean_row.push_back(element.mean);
+            error_row.push_back(optional_number(element.standard_error));
+        }
+        mean.push_back(mean_row);
+        error.push_back(error_row);
+    }
+    return {{"mean", mean}, {"standard_error", error}, {"unit", unit}};
+}
+
+void withhold_errors(Json& entry, const std::string& reason) {
+    if (!entry.is_object()) return;
+    if (entry.contains("standard_error")) {
+        set_null(entry["standard_error"]);
+        entry["no_standard_error_because"] = reason;
+    }
+    for (Json& part : entry) withhold_errors(part, reason);
+}

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "jostle/io/series_file.hpp"
+#include "jostle/statistics/jackknife.hpp"
+#include "jostle/statistics/time_series.hpp"
+
+/// Columns of a series: (columns)(rows).
+using Columns = std::vector<std::vector<double>>;
+
+/// The rows of a column from `first` on.
+std::vector<double> from_row(const std::vector<double>& column, std::size_t first);
+
+/// The mean of a column, of any length.
+double mean_of(const std::vector<double>& column);
+
+/// The rows from `first` on of the columns of these names.
+Columns window_columns(const jostle::SeriesTable& series, std::size_t first, std::span<const char* const> names);
+
+/// How summary.json tells an average: mean, standard error or the reason that there is none, and what they rest on.
+nlohmann::ordered_json described(const jostle::Average& average, const std::string& unit);
+nlohmann::ordered_json described(const jostle::Estimate& estimate);
+
+/// A number, or null.
+nlohmann::ordered_json optional_number(const std::optional<double>& value);
+
+/// Mean and standard error of each of nine columns, by rows of the tensor.
+nlohmann::ordered_json tensor_entry(const Columns& columns, const std::string& unit);
+
+/// Takes all error bars out of an entry and its parts, and gives the reason instead.
+void withhold_errors(nlohmann::ordered_json& entry, const std::string& reason);
