@@ -233,6 +233,7 @@ private:
         attributes.time_unit = unit_of(scene_, dimension::time);
         attributes.stress_unit = unit_of(scene_, dimension::stress);
         attributes.energy_unit = unit_of(scene_, dimension::energy);
+        attributes.kT = simulation_.settings().kT;
         write_h5md(directory_.file("trajectory.journal"), directory_.file("trajectory.h5"), attributes,
                    &files_.series());
     }

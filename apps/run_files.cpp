@@ -56,6 +56,11 @@ std::vector<SeriesColumn> field_columns(const Scene& scene) {
              "element of the collision stress in the cell (position, force), mean over the steps since the "
              "last field",
              "positive in compression"});
+    for (const char* name : orientation_stress_column_names)
+        columns.push_back({name, unit_of(scene, dimension::stress), "Sigma_ori",
+                           "element of the orientation stress in the cell, symmetric, mean over the steps since the "
+                           "last field",
+                           "positive in compression"});
     return columns;
 }
 
@@ -201,21 +206,20 @@ void RunFiles::append_lineage(const Simulation& simulation) {
 }
 
 void RunFiles::append_field(const Simulation& simulation, const StressField& field) {
-    const auto append = [&](const Vec3& centre, double density, const Mat3& stress) {
+    const auto append = [&](const Vec3& centre, const StressField::Content& content) {
         std::vector<double> row = {static_cast<double>(simulation.clock().step),
                                    simulation.clock().time,
                                    centre.x,
                                    centre.y,
                                    centre.z,
-                                   density};
-        row.insert(row.end(), stress.m.begin(), stress.m.end());
+                                   content.number_density};
+        row.insert(row.end(), content.collision.m.begin(), content.collision.m.end());
+        append_upper(row, content.orientation);
         side_files_[field_table]->append(row);
     };
-    for (std::size_t cell = 0; cell < field.size(); ++cell)
-        append(field.centre(cell), field.number_density(cell), field.stress(cell));
+    for (std::size_t cell = 0; cell < field.size(); ++cell) append(field.centre(cell), field.mean(cell));
     const double nowhere = std::numeric_limits<double>::quiet_NaN();
-    if (field.has_outside())
-        append({nowhere, nowhere, nowhere}, field.outside_number_density(), field.outside_stress());
+    if (field.has_outside()) append({nowhere, nowhere, nowhere}, field.outside_mean());
 }
 
 void RunFiles::write_checkpoint(const Simulation& simulation, const StepSums& sums) {

@@ -6,6 +6,7 @@
 #include "jostle/error/input_error.hpp"
 #include "jostle/stress/collision_stress.hpp"
 #include "jostle/stress/contact_stress.hpp"
+#include "jostle/stress/orientation_stress.hpp"
 #include "jostle/stress/rigid_body_stress.hpp"
 
 namespace jostle::python {
@@ -68,19 +69,29 @@ Contacts contacts_of(const Indices& i, const Indices& j, const Numbers& normal, 
     return contacts;
 }
 
-/// Sum of the pair stresses of rods, as the step of a simulation takes it.
-py::array sum_over_contacts(const Numbers& axis, const Numbers& length, const Numbers& diameter, const Indices& i,
-                            const Indices& j, const Numbers& normal, const Numbers& arm_i, const Numbers& arm_j,
-                            const Numbers& gap, const Numbers& force, bool touching) {
+/// Rods of given directions and sizes; where they are is left out.
+Rods rods_of(const Numbers& axis, const Numbers& length, const Numbers& diameter) {
     const auto axes = vectors_in(axis, "axis");
     const auto lengths = numbers_in(length, "length"), diameters = numbers_in(diameter, "diameter");
     require_shape(length, {axis.shape(0)}, "length");
     require_shape(diameter, {axis.shape(0)}, "diameter");
+    Rods rods;
+    for (std::size_t k = 0; k < axes.size(); ++k) rods.push_back(k, {}, axes[k], lengths[k], diameters[k]);
+    return rods;
+}
+
+py::array sum_over_rods(const Numbers& axis, const Numbers& length, const Numbers& diameter, double kT) {
+    return array_of(sum_of_orientation_stresses(rods_of(axis, length, diameter), kT));
+}
+
+/// Sum of the pair stresses of rods, as the step of a simulation takes it.
+py::array sum_over_contacts(const Numbers& axis, const Numbers& length, const Numbers& diameter, const Indices& i,
+                            const Indices& j, const Numbers& normal, const Numbers& arm_i, const Numbers& arm_j,
+                            const Numbers& gap, const Numbers& force, bool touching) {
     for (const py::array* column : std::initializer_list<const py::array*>{&j, &arm_i, &arm_j, &gap, &force})
         require_shape(*column, {i.shape(0)}, "a value for each contact");
     require_shape(normal, {i.shape(0), 3}, "normal");
-    Rods rods;
-    for (std::size_t k = 0; k < axes.size(); ++k) rods.push_back(k, {}, axes[k], lengths[k], diameters[k]);
+    const Rods rods = rods_of(axis, length, diameter);
     const Contacts contacts = contacts_of(i, j, normal, arm_i, arm_j, gap, rods.size());
     const py::gil_scoped_release release;
     const ContactMatrix matrix(contacts, rods.size());
@@ -135,6 +146,7 @@ py::tuple stress_of_contacts(const Numbers& second_moment, const Indices& body_1
 void bind_stress(py::module_& module) {
     module.def("pair_stress", &pair_stress_of_rows);
     module.def("sum_over_contacts", &sum_over_contacts);
+    module.def("sum_over_rods", &sum_over_rods);
     module.def("contact_stress", &stress_of_contacts);
 }
 

@@ -75,4 +75,4 @@ for name, tensor in (("whole formula", stress.total), ("bare virial", stress.vir
 
 # jostle, which knows that these are rods, had the same stress:
 
-print("as in the step:", np.allclose(sigma, simulation.stress, rtol=1e-12))
+print("as in the step:", np.allclose(sigma, simulation.stress_collision, rtol=1e-12))

@@ -5,6 +5,7 @@
     pair_stress             stress of contacts between rigid bodies of any shape
     contact_stress          the same of a list of contacts, in all and of every body
     collision_stress        stress of rods from their contacts
+    orientation_stress      stress that the Brownian rotation of rods carries
     solve_lcp               linear complementarity problems
     Scene, Simulation       what `jostle run` does, step by step
     load                    what `jostle run` left
@@ -22,9 +23,9 @@ from .lcp import LcpResult, solve_lcp
 from .run import Run, load
 from .scene import Scene
 from .simulation import Simulation, StepFailure, StepReport
-from .stress import ContactStress, PairStress, collision_stress, contact_stress, pair_stress
+from .stress import ContactStress, PairStress, collision_stress, contact_stress, orientation_stress, pair_stress
 
 __all__ = ["Body", "ContactStress", "DiskError", "InputError", "LcpResult", "PairStress", "Run", "Scene",
            "Simulation", "StepFailure", "StepReport", "body_moments", "collision_stress", "combined",
-           "contact_stress", "load", "pair_stress", "segment_distance", "set_thread_count", "solve_lcp",
+           "contact_stress", "load", "orientation_stress", "pair_stress", "segment_distance", "set_thread_count", "solve_lcp",
            "thread_count"]

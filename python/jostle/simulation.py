@@ -9,6 +9,7 @@ from . import _jostle
 from ._arrays import with_shape
 from ._jostle import refuse
 from .scene import Scene
+from .stress import orientation_stress
 
 CONTACT = np.dtype([("id_i", np.uint64), ("id_j", np.uint64), ("image", np.int32, 3), ("force", float), ("gap", float),
                     ("normal", float, 3), ("arm_i", float), ("arm_j", float)])
@@ -231,12 +232,27 @@ class Simulation:
 
     @property
     def stress(self):
-        """(3, 3) array, force length**-2: collision stress of the last step, positive in compression; None before it.
+        """(3, 3) array, force length**-2: the whole stress, n kT I + orientation + collisions + springs (theory, eq. 1.19); None before
+        the first step. The active stress of swimmers is no part of it.
 
-        Its own noise is large: means over many steps are in `series`.
+        Positive in compression; collisions and springs are those of the last step, and noisy: means over many are in `series`.
         """
         report = self.report
+        if not report:
+            return None
+        kinetic = report.rods * self.kT * np.eye(3)
+        return (kinetic + report.collision_virial + report.spring_virial) / self.volume + self.stress_orientation
+
+    @property
+    def stress_collision(self):
+        """(3, 3) array, force length**-2: its part from the collisions of the last step; None before it."""
+        report = self.report
         return report and report.collision_virial / self.volume
+
+    @property
+    def stress_orientation(self):
+        """(3, 3) array, force length**-2: its part from the Brownian rotation of the rods as they are now."""
+        return orientation_stress(self.rods, self.kT, self.volume)
 
     @property
     def contacts(self):

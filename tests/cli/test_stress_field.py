@@ -12,6 +12,7 @@ from jostle_command import (BAD_INPUT, DONE, RODS, STOPPED, changed, column, com
 from test_dividing_population import CELLS
 
 NAMES = [f"stress_{a}{b}" for a in "xyz" for b in "xyz"]
+ORIENTATION = [f"stress_orientation_{ab}" for ab in ("xx", "xy", "xz", "yy", "yz", "zz")]
 FIELD = changed(RODS, output={"field_every": 20, "field_spacing": 1.5})
 EDGE = (50 * np.pi * (2 / 4 + 1 / 6) / 0.25) ** (1 / 3)
 
@@ -22,10 +23,10 @@ def fields(folder):
     return {step: rows[rows["step"] == step] for step in np.unique(rows["step"])}
 
 
-def means_of_series(folder, steps, every):
+def means_of_series(folder, steps, every, names=NAMES):
     """Means of the rows that end within the last `every` steps before each of `steps`."""
     row_steps = np.array(column(folder / "series.csv", "step"))
-    stress = np.array([column(folder / "series.csv", name) for name in NAMES])
+    stress = np.array([column(folder / "series.csv", name) for name in names])
     return {step: stress[:, (row_steps > step - every) & (row_steps <= step)].mean(axis=1) for step in steps}
 
 
@@ -44,9 +45,21 @@ def test_sums_to_the_series(tmp_path):
         assert rows["number_density"].mean() == pytest.approx(50 / EDGE**3, rel=1e-12)
         assert np.allclose(rows["x"][:1], EDGE / cells / 2)
     described = [entry["name"] for entry in json.loads((folder / "field.json").read_text())["columns"]]
-    assert described == ["step", "time", "x", "y", "z", "number_density"] + NAMES
+    assert described == ["step", "time", "x", "y", "z", "number_density"] + NAMES + ORIENTATION
     checked = command(tmp_path, "check", "scene.toml")
     assert f"{cells} x {cells} x {cells} cells" in checked.stdout
+
+
+def test_orientation_stress_sums_to_the_series(tmp_path):
+    """The field is a mean over steps, the series holds values at its rows: the same where both are due at every step."""
+    write_scene(tmp_path, changed(FIELD, output={"field_every": 1, "series_every": 1}))
+    folder = finish(tmp_path)
+    found = fields(folder)
+    expected = means_of_series(folder, found, 1, ORIENTATION)
+    for step, rows in found.items():
+        stress = np.array([rows[name].mean() for name in ORIENTATION])
+        assert np.linalg.norm(stress) > 0
+        assert np.allclose(stress, expected[step], rtol=0, atol=1e-12 * np.linalg.norm(stress))
 
 
 def test_nothing_else_changes(tmp_path):

@@ -13,6 +13,13 @@ from test_dividing_population import CELLS
 WITH_STRESS = changed(RODS, output={"stress_per_rod": True, "series_every": 1})
 
 
+def tensor_of_series(folder, step):
+    row = column(folder / "series.csv", "step").index(step)
+    xx, xy, xz, yy, yz, zz = (column(folder / "series.csv", f"stress_orientation_{ab}")[row]
+                              for ab in ("xx", "xy", "xz", "yy", "yz", "zz"))
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
 def stress_and_ids(folder):
     with h5py.File(folder / "trajectory.h5") as file:
         rods = file["particles/rods"]
@@ -42,6 +49,22 @@ def test_sums_to_the_stress_of_the_step_before(tmp_path):
     assert command(tmp_path, "verify", "run").returncode == 0
 
 
+def test_orientation_stress_of_every_rod(tmp_path):
+    """At the frame's axes, which are single precision; it sums to that of the series."""
+    write_scene(tmp_path, WITH_STRESS)
+    folder = finish(tmp_path)
+    with h5py.File(folder / "trajectory.h5") as file:
+        rods = file["particles/rods"]
+        stress, axis, steps = (rods[name][()] for name in ("stress_orientation/value", "orientation/value", "position/step"))
+    b = 2.0
+    B = 5 * b * (2 * b + 1) * (2 * b + 3) / (20 * b**3 + 40 * b**2 + 45 * b + 16)
+    expected = -3 * B * (axis[..., :, None] * axis[..., None, :] - np.eye(3) / 3)
+    assert np.allclose(stress, expected, rtol=0, atol=1e-6)
+    for k, step in list(enumerate(steps))[1:]:
+        total = tensor_of_series(folder, step) * volume_of(folder)
+        assert np.linalg.norm(total) > 1 and np.allclose(stress[k].sum(axis=0), total, rtol=0, atol=1e-5)
+
+
 def test_nothing_else_changes(tmp_path):
     """The same series, contacts and rods with it and without."""
     for name, scene in (("with", WITH_STRESS), ("without", changed(WITH_STRESS, output={"stress_per_rod": False}))):
@@ -50,7 +73,7 @@ def test_nothing_else_changes(tmp_path):
     for name in ("series.csv", "contacts.csv", "summary.json"):
         assert (tmp_path / "with/run" / name).read_bytes() == (tmp_path / "without/run" / name).read_bytes()
     with h5py.File(tmp_path / "without/run/trajectory.h5") as file:
-        assert "stress_collision" not in file["particles/rods"]
+        assert not {"stress_collision", "stress_orientation"} & set(file["particles/rods"])
 
 
 def test_stopped_killed_and_resumed(tmp_path):

@@ -249,3 +249,28 @@ def test_many_bodies_where_one_is_needed():
         random_body((4,)).rotated(ROTATION)
     with pytest.raises(jostle.InputError, match="has no body in it"):
         jostle.combined([])
+
+
+def test_orientation_stress():
+    """-(3 kT/V) sum of B (n n - I/3), every rod with its own B; of equal rods -2 n kT B Q."""
+    axis = RANDOM.normal(size=(7, 3))
+    axis /= np.linalg.norm(axis, axis=1, keepdims=True)
+    length, diameter = RANDOM.uniform(0, 8, 7), RANDOM.uniform(0.5, 2, 7)
+    b = length / diameter
+    B = 5 * b * (2 * b + 1) * (2 * b + 3) / (20 * b**3 + 40 * b**2 + 45 * b + 16)
+    rods = {"axis": axis, "length": length, "diameter": diameter}
+    expected = -3 * 0.7 / 11 * np.einsum("i,iab->ab", B, axis[:, :, None] * axis[:, None, :] - np.eye(3) / 3)
+    found = jostle.orientation_stress(rods, 0.7, 11.0)
+    assert np.allclose(found, expected, rtol=0, atol=1e-15)
+    assert abs(np.trace(found)) < 1e-15 and np.array_equal(found, found.T)
+    assert np.array_equal(jostle.orientation_stress(rods, 0.0, 11.0), np.zeros((3, 3)))
+    assert np.array_equal(jostle.orientation_stress(dict(rods, length=0.0), 0.7, 11.0), np.zeros((3, 3)))
+
+
+@pytest.mark.parametrize("changes, told", [({"kT": -1.0}, "kT"), ({"kT": np.nan}, "kT"), ({"volume": 0.0}, "volume"),
+                                           ({"rods": {"axis": [[0, 0, 2]], "length": 1.0, "diameter": 1.0}}, "axis"),
+                                           ({"rods": {"axis": [[0, 0, 1]], "length": -1.0, "diameter": 1.0}}, "length")])
+def test_orientation_stress_refuses(changes, told):
+    arguments = {"rods": {"axis": [[0, 0, 1]], "length": 1.0, "diameter": 1.0}, "kT": 1.0, "volume": 1.0} | changes
+    with pytest.raises(jostle.InputError, match=told):
+        jostle.orientation_stress(**arguments)

@@ -10,6 +10,7 @@
 #include "jostle/io/h5md_element.hpp"
 #include "jostle/io/hdf5_objects.hpp"
 #include "jostle/io/trajectory_journal.hpp"
+#include "jostle/stress/orientation_stress.hpp"
 
 namespace jostle {
 namespace {
@@ -78,6 +79,15 @@ Hdf5Id write_box(hid_t rods, const JournalShape& shape, const H5mdAttributes& at
     return box;
 }
 
+std::vector<Mat3> orientation_stress_of_rods(const TrajectoryFrame& frame, double kT) {
+    std::vector<Mat3> stress(frame.size());
+    for (std::size_t i = 0; i < stress.size(); ++i) {
+        const auto& [x, y, z] = frame.axis[i];
+        stress[i] = orientation_stress_of_rod({x, y, z}, frame.length[i], frame.diameter[i], kT);
+    }
+    return stress;
+}
+
 void write_particles(hid_t file, const std::string& journal_path, const JournalShape& shape,
                      const H5mdAttributes& attributes) {
     const Hdf5Id particles = make_group(file, "particles");
@@ -93,11 +103,13 @@ void write_particles(hid_t file, const std::string& journal_path, const JournalS
     FrameDataset length = position.beside(rods, "length", H5T_NATIVE_FLOAT, {t, n}, &nan, unit);
     FrameDataset diameter = position.beside(rods, "diameter", H5T_NATIVE_FLOAT, {t, n}, &nan, unit);
     FrameDataset id = position.beside(rods, "id", H5T_NATIVE_INT64, {t, n}, &no_rod, "");
-    std::optional<FrameDataset> stress, edges;
-    const double no_stress = std::numeric_limits<double>::quiet_NaN();
-    if (shape.has_stress)
-        stress = position.beside(rods, "stress_collision", H5T_NATIVE_DOUBLE, {t, n, 3, 3}, &no_stress,
-                                 attributes.energy_unit);
+    std::optional<FrameDataset> collision, orientation, edges;
+    const auto of_stress = [&](const char* name) {
+        const double none = std::numeric_limits<double>::quiet_NaN();
+        return position.beside(rods, name, H5T_NATIVE_DOUBLE, {t, n, 3, 3}, &none, attributes.energy_unit);
+    };
+    if (shape.has_stress) collision = of_stress("stress_collision");
+    if (shape.has_stress && attributes.kT > 0.0) orientation = of_stress("stress_orientation");
     if (shape.box_varies) edges = position.beside(box, "edges", H5T_NATIVE_DOUBLE, {t, 3}, nullptr, unit);
 
     TrajectoryReader reader(journal_path);
@@ -110,7 +122,8 @@ void write_particles(hid_t file, const std::string& journal_path, const JournalS
         length.write(k, count, frame.length.data());
         diameter.write(k, count, frame.diameter.data());
         id.write(k, count, frame.id.data());  // ids count from 0 and stay far below 2^63
-        if (stress) stress->write(k, count, frame.stress.data());
+        if (collision) collision->write(k, count, frame.stress.data());
+        if (orientation) orientation->write(k, count, orientation_stress_of_rods(frame, attributes.kT).data());
         if (edges) edges->write(k, 3, &frame.box.edges);
     }
 }

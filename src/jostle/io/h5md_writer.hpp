@@ -21,6 +21,7 @@ struct H5mdAttributes {
     std::string time_unit;
     std::string stress_unit;
     std::string energy_unit;  ///< of stress times volume
+    double kT = 0.0;          ///< of Brownian motion, in that unit; 0: no orientation stress is written
 };
 
 /// Makes an H5MD 1.1 file (P. de Buyl et al., Comput. Phys. Commun. 185, 1546 (2014)) from a journal.
@@ -28,6 +29,8 @@ struct H5mdAttributes {
 /// One frame is in memory at a time. The file is written beside its place and renamed into it when it is whole and
 /// on the disk. Its numbers carry fletcher32 checksums and its structure HDF5's own (file format of HDF5 1.10).
 /// Where N varies, the rows that are not there have id -1 (the fill value) and NaN.
+/// A journal with stress gives each rod its part of the collision stress and, at the frame's axes, its orientation
+/// stress.
 /// series: if given, /observables/stress is made from its columns step, time, stress_xx ... stress_zz.
 /// Errors: InputError for a missing or damaged journal; DiskError, and the old file is still there.
 void write_h5md(const std::string& journal_path, const std::string& h5md_path, const H5mdAttributes& attributes,

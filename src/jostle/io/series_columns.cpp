@@ -4,6 +4,7 @@
 
 #include "jostle/io/units.hpp"
 #include "jostle/statistics/order_parameter.hpp"
+#include "jostle/stress/orientation_stress.hpp"
 #include "jostle/stress/stress.hpp"
 
 namespace jostle {
@@ -36,6 +37,11 @@ void append_spring_columns(const Scene& scene, std::vector<SeriesColumn>& column
 
 }  // namespace
 
+void append_upper(std::vector<double>& row, const Mat3& tensor) {
+    for (int a = 0; a < 3; ++a)
+        for (int b = a; b < 3; ++b) row.push_back(tensor(a, b));
+}
+
 std::vector<SeriesColumn> series_columns(const Scene& scene) {
     const std::string stress = unit_of(scene, dimension::stress);
     const std::string pressure_sign = "positive in compression";
@@ -53,6 +59,11 @@ std::vector<SeriesColumn> series_columns(const Scene& scene) {
     for (const char* name : stress_column_names)
         columns.push_back({name, stress, "Sigma_col",
                            "element of the collision stress (position, force), mean over the steps since the last row",
+                           pressure_sign});
+    for (const char* name : orientation_stress_column_names)
+        columns.push_back({name, stress, "Sigma_ori",
+                           "element of the orientation stress at this step, sum over rods of -3 kT B (n n - I/3) over "
+                           "the volume, which Brownian rotation carries; symmetric, traceless",
                            pressure_sign});
     columns.push_back({"nematic_order", "1", "S", "largest eigenvalue of the order tensor at this step", ""});
     for (const char* name : order_tensor_column_names)
@@ -93,8 +104,10 @@ std::vector<double> series_row(const Simulation& simulation, const StepSums& sum
     const double volume = simulation.box().volume();
     const double kT = simulation.settings().kT;
     const double density = sums.rods / sums.steps / volume;  // cells may have divided since the last row
-    const Stress stress = assembly_stress(density, kT, (1.0 / sums.steps) * sums.collision_virial, volume,
-                                          (1.0 / sums.steps) * sums.spring_virial);
+    const Stress stress = assembly_stress(density, kT, volume,
+                                          {.collision = (1.0 / sums.steps) * sums.collision_virial,
+                                           .orientation = sum_of_orientation_stresses(rods, kT),
+                                           .springs = (1.0 / sums.steps) * sums.spring_virial});
     const NematicOrder order = nematic_order(rods.axis);
     std::vector<double> row = {static_cast<double>(simulation.clock().step),
                                simulation.clock().time,
@@ -104,9 +117,9 @@ std::vector<double> series_row(const Simulation& simulation, const StepSums& sum
                                pressure(stress),
                                pressure_collision(stress)};
     row.insert(row.end(), stress.collision.m.begin(), stress.collision.m.end());
+    append_upper(row, stress.orientation);
     row.push_back(order.order);
-    for (int a = 0; a < 3; ++a)
-        for (int b = a; b < 3; ++b) row.push_back(order.tensor(a, b));
+    append_upper(row, order.tensor);
     for (const double sum : {sums.contacts, sums.active_contacts, sums.iterations}) row.push_back(sum / sums.steps);
     row.push_back(sums.residual);
     row.push_back(sums.max_overlap);

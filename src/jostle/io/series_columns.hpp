@@ -14,7 +14,11 @@ namespace jostle {
 inline constexpr std::array<const char*, 9> stress_column_names = {"stress_xx", "stress_xy", "stress_xz",
                                                                    "stress_yx", "stress_yy", "stress_yz",
                                                                    "stress_zx", "stress_zy", "stress_zz"};
-/// The same of the active stress, where rods swim.
+/// Names of the six columns of the orientation stress, which is symmetric: xx xy xz yy yz zz.
+inline constexpr std::array<const char*, 6> orientation_stress_column_names = {
+    "stress_orientation_xx", "stress_orientation_xy", "stress_orientation_xz",
+    "stress_orientation_yy", "stress_orientation_yz", "stress_orientation_zz"};
+/// Nine of the active stress, where rods swim.
 inline constexpr std::array<const char*, 9> active_stress_column_names = {
     "stress_active_xx", "stress_active_xy", "stress_active_xz", "stress_active_yx", "stress_active_yy",
     "stress_active_yz", "stress_active_zx", "stress_active_zy", "stress_active_zz"};
@@ -33,10 +37,13 @@ inline constexpr std::array<const char*, 9> centre_line_column_names = {
 inline constexpr std::array<const char*, 6> order_tensor_column_names = {"order_xx", "order_xy", "order_xz",
                                                                          "order_yy", "order_yz", "order_zz"};
 
+/// Appends the elements xx xy xz yy yz zz of a symmetric tensor.
+void append_upper(std::vector<double>& row, const Mat3& tensor);
+
 /// The columns of series.csv, with unit, definition and sign of each.
 std::vector<SeriesColumn> series_columns(const Scene& scene);
 
-/// One row: means over the steps in `sums`, and the order of the rods as they are now.
+/// One row: means over the steps in `sums`, and order and orientation stress of the rods as they are now.
 std::vector<double> series_row(const Simulation& simulation, const StepSums& sums);
 
 }  // namespace jostle

@@ -35,7 +35,7 @@ void StepSums::add(const StepReport& report, const Simulation& simulation) {
             if (event.kind == LineageEvent::Kind::birth) divisions.push_back({event.mother, event.id});
         active_stress->divide(simulation.rods(), simulation.box(), divisions);
     }
-    if (field) field->add(simulation.collision_moments(), simulation.rods().centre);
+    if (field) field->add(simulation.collision_moments(), simulation.rods(), simulation.settings().kT);
 }
 
 void StepSums::look_at_swimmers(const Scene& scene, const Simulation& simulation) {

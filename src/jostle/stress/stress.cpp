@@ -8,19 +8,19 @@
 
 namespace jostle {
 
-Stress assembly_stress(double number_density, double kT, const Mat3& sum_of_pair_stresses, double volume,
-                       const Mat3& sum_of_spring_stresses) {
+Stress assembly_stress(double number_density, double kT, double volume, const StressSums& sums) {
     require_value(std::isfinite(number_density) && number_density >= 0.0, "number_density", number_density,
                   "is no density", ">= 0, finite");
     require_value(std::isfinite(kT) && kT >= 0.0, "kT", kT, "is no temperature", ">= 0, finite");
     require_value(std::isfinite(volume) && volume > 0.0, "volume", volume, "is no volume to refer the stress to",
                   "> 0, finite");
-    return {(number_density * kT) * identity(), (1.0 / volume) * sum_of_pair_stresses,
-            (1.0 / volume) * sum_of_spring_stresses};
+    const double per_volume = 1.0 / volume;
+    return {(number_density * kT) * identity(), per_volume * sums.orientation, per_volume * sums.collision,
+            per_volume * sums.springs};
 }
 
 double pressure(const Stress& stress) {
-    return trace(stress.total()) / 3.0;
+    return trace(stress.kinetic + stress.collision + stress.springs) / 3.0;
 }
 
 double pressure_collision(const Stress& stress) {

@@ -6,27 +6,33 @@
 
 namespace jostle {
 
-/// The stress of an assembly, Sigma = n kT I + (1/V) sum sigma (theory, eq. 1.2), over contacts and springs; positive
-/// in compression; energy per volume.
+/// The stress of an assembly, Sigma = n kT I + Sigma_ori + Sigma_col + Sigma_spr (theory, eq. 1.19); positive in
+/// compression; energy per volume.
 ///
 /// Departure from the paper: it prints the collision part as a mean over the rods (an energy); it is a sum over the
 /// volume.
 struct Stress {
-    Mat3 kinetic;    ///< n kT I
-    Mat3 collision;  ///< (1/V) sum of the pair stresses; all 9 entries kept
-    Mat3 springs;    ///< the same of springs
+    Mat3 kinetic;      ///< n kT I, of the rods' Brownian translation
+    Mat3 orientation;  ///< of their Brownian rotation; traceless
+    Mat3 collision;    ///< (1/V) sum of the pair stresses; all 9 entries kept
+    Mat3 springs;      ///< the same of springs
 
-    Mat3 total() const { return kinetic + collision + springs; }
+    Mat3 total() const { return kinetic + orientation + collision + springs; }
 };
 
-/// Stress from the number density n = N/V, the temperature kT and the sums of the pair stresses of contacts, and of
-/// springs, in the volume V.
+/// Stress times volume, summed over contacts, rods and springs.
+struct StressSums {
+    Mat3 collision{};    ///< `sum_of_pair_stresses`
+    Mat3 orientation{};  ///< `sum_of_orientation_stresses`
+    Mat3 springs{};      ///< `sum_of_spring_stresses`
+};
+
+/// Stress from the number density n = N/V, the temperature kT and the sums in the volume V.
 ///
 /// Throws InputError unless n >= 0, kT >= 0, V > 0, all finite.
-Stress assembly_stress(double number_density, double kT, const Mat3& sum_of_pair_stresses, double volume,
-                       const Mat3& sum_of_spring_stresses = {});
+Stress assembly_stress(double number_density, double kT, double volume, const StressSums& sums);
 
-/// Pi = Tr Sigma/3, with all parts.
+/// Pi = Tr Sigma/3, with all parts that have a trace.
 double pressure(const Stress& stress);
 
 /// Pi_col = Tr Sigma_col/3, the part of the pressure from collisions.

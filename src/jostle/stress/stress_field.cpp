@@ -7,13 +7,14 @@
 #include <numbers>
 
 #include "jostle/error/input_error.hpp"
+#include "jostle/stress/orientation_stress.hpp"
 
 namespace jostle {
 
 namespace {
 
 constexpr double most_cells = 1e6;
-constexpr std::size_t head_count = 11, each = 10;  // numbers in a checkpoint: of the grid and outside, of a cell
+constexpr std::size_t head_count = 10, each = 19;  // numbers in a checkpoint: of the grid, and of a cell or outside
 
 [[noreturn]] void refuse_spacing(double spacing, std::string problem, std::string allowed) {
     throw InputError({.key = "output.field_spacing",
@@ -53,17 +54,29 @@ StressField::StressField(const Box& box, double spacing) : box_(box) {
         cells_[static_cast<std::size_t>(k)] = static_cast<std::size_t>(count);
         edges_[k] = box.edges[k] / count;
     }
-    virial_.resize(static_cast<std::size_t>(total));
-    count_.resize(virial_.size());
+    content_.resize(static_cast<std::size_t>(total));
 }
 
-void StressField::add(const CollisionMoments& moments, std::span<const Vec3> centres) {
+StressField::Content& StressField::Content::add(double weight, const Content& other) {
+    number_density += weight * other.number_density;
+    collision += weight * other.collision;
+    orientation += weight * other.orientation;
+    return *this;
+}
+
+void StressField::add(const CollisionMoments& moments, const Rods& rods, double kT) {
     steps_ += 1.0;
     // In order, on one thread: cells are shared, and the same bits for any number of threads are worth more.
     for (const CollisionMoments::Pair& pair : moments.pairs) spread(pair);
     for (const CollisionMoments::Body& body : moments.bodies)
-        deposit(body.centre, body.geometric, virial_, outside_virial_);
-    for (const Vec3& centre : centres) deposit(centre, 1.0, count_, outside_count_);
+        deposit(body.centre, [&](Content& cell, double weight) { cell.collision += weight * body.geometric; });
+    for (std::size_t i = 0; i < rods.size(); ++i) {
+        const Mat3 orientation = orientation_stress_of_rod(rods.axis[i], rods.length[i], rods.diameter[i], kT);
+        deposit(rods.centre[i], [&](Content& cell, double weight) {
+            cell.number_density += weight;
+            cell.orientation += weight * orientation;
+        });
+    }
 }
 
 // The weights of a point are a product of three functions that are linear between the planes through the cells' centres
@@ -84,19 +97,21 @@ void StressField::spread(const CollisionMoments::Pair& pair) {
         if (half == 0.0) continue;
         for (const double side : {-1.0, 1.0}) {
             const double place = breaks_[piece] + half + side * half * std::numbers::inv_sqrt3;
-            deposit(begin + place * pair.separation, half * moment, virial_, outside_virial_);
+            deposit(begin + place * pair.separation,
+                    [&](Content& cell, double weight) { cell.collision += (weight * half) * moment; });
         }
     }
 }
 
-template <class Value>
-void StressField::deposit(const Vec3& point, const Value& value, std::vector<Value>& field, Value& outside) const {
+// Calls add(content, weight) for each of the eight cells around a point.
+template <class Add>
+void StressField::deposit(const Vec3& point, Add&& add) {
     std::array<Share, 3> share;
     for (std::size_t k = 0; k < 3; ++k) {
         const int direction = static_cast<int>(k);
         const double place = point[direction];
         if (!box_.periodic[k] && !(place >= 0.0 && place <= box_.edges[direction])) {
-            outside += value;
+            add(outside_, 1.0);
             return;
         }
         share[k] = share_of(place, edges_[direction], cells_[k], box_.periodic[k]);
@@ -109,16 +124,14 @@ void StressField::deposit(const Vec3& point, const Value& value, std::vector<Val
             weight *= second ? share[k].part : 1.0 - share[k].part;
             cell = cell * cells_[k] + (second ? share[k].second : share[k].first);
         }
-        field[cell] += weight * value;
+        add(content_[cell], weight);
     }
 }
 
 void StressField::clear() {
     steps_ = 0.0;
-    std::fill(virial_.begin(), virial_.end(), Mat3{});
-    std::fill(count_.begin(), count_.end(), 0.0);
-    outside_virial_ = {};
-    outside_count_ = 0.0;
+    std::fill(content_.begin(), content_.end(), Content{});
+    outside_ = {};
 }
 
 Vec3 StressField::centre(std::size_t cell) const {
@@ -131,12 +144,14 @@ std::vector<double> StressField::to_numbers() const {
     std::vector<double> numbers = {box_.edges.x, box_.edges.y, box_.edges.z};
     for (const bool periodic : box_.periodic) numbers.push_back(periodic ? 1.0 : 0.0);
     for (const std::size_t count : cells_) numbers.push_back(static_cast<double>(count));
-    numbers.insert(numbers.end(), {steps_, outside_count_});
-    numbers.insert(numbers.end(), outside_virial_.m.begin(), outside_virial_.m.end());
-    for (std::size_t cell = 0; cell < size(); ++cell) {
-        numbers.push_back(count_[cell]);
-        numbers.insert(numbers.end(), virial_[cell].m.begin(), virial_[cell].m.end());
-    }
+    numbers.push_back(steps_);
+    const auto append = [&](const Content& content) {
+        numbers.push_back(content.number_density);
+        for (const Mat3* tensor : {&content.collision, &content.orientation})
+            numbers.insert(numbers.end(), tensor->m.begin(), tensor->m.end());
+    };
+    append(outside_);
+    for (const Content& cell : content_) append(cell);
     return numbers;
 }
 
@@ -147,7 +162,7 @@ StressField StressField::from_numbers(std::span<const double> numbers) {
                               .problem = "the sums of the stress field are not whole",
                               .suggestion = "Start anew with --fresh"});
     };
-    require(numbers.size() >= head_count + 9);
+    require(numbers.size() >= head_count + each);
     Box box{{numbers[0], numbers[1], numbers[2]}, {numbers[3] != 0.0, numbers[4] != 0.0, numbers[5] != 0.0}};
     StressField field(box, std::max({box.edges.x, box.edges.y, box.edges.z}));  // one cell or few, made anew below
     double total = 1.0;
@@ -158,22 +173,19 @@ StressField StressField::from_numbers(std::span<const double> numbers) {
         field.edges_[k] = box.edges[k] / count;
     }
     const auto cells = static_cast<std::size_t>(total);
-    require(numbers.size() == head_count + 9 + each * cells);
+    require(numbers.size() == head_count + each * (1 + cells));
     field.steps_ = numbers[9];
-    field.outside_count_ = numbers[10];
-    const auto matrix = [&](std::size_t first) {
-        Mat3 value;
-        std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(first), 9, value.m.begin());
-        return value;
+    auto next = numbers.begin() + head_count;
+    const auto take = [&](Content& content) {
+        content.number_density = *next++;
+        for (Mat3* tensor : {&content.collision, &content.orientation}) {
+            std::copy_n(next, 9, tensor->m.begin());
+            next += 9;
+        }
     };
-    field.outside_virial_ = matrix(head_count);
-    field.virial_.resize(cells);
-    field.count_.resize(cells);
-    for (std::size_t cell = 0; cell < cells; ++cell) {
-        const std::size_t first = head_count + 9 + each * cell;
-        field.count_[cell] = numbers[first];
-        field.virial_[cell] = matrix(first + 1);
-    }
+    take(field.outside_);
+    field.content_.resize(cells);
+    for (Content& cell : field.content_) take(cell);
     return field;
 }
 

@@ -135,18 +135,26 @@ TEST_CASE("the sum over rods has the same bits for any number of threads") {
     CHECK_THROWS_AS(geometric_stress(rods, torque, {{}, {}}), InputError);  // an axis is missing
 }
 
-TEST_CASE("eq. (1.2): n kT I + sum/V, pressure, Z") {
+TEST_CASE("eq. (1.19): n kT I + sums/V, pressure, Z") {
     const Mat3 sum = {{30, 1, 0, 1, 60, 0, 0, 0, 90}};
-    const Stress stress = assembly_stress(0.5, 2.0, sum, 10.0);
+    const Stress stress = assembly_stress(0.5, 2.0, 10.0, {.collision = sum});
     CHECK(stress.total()(0, 0) == doctest::Approx(4.0));
     CHECK(stress.total()(0, 1) == doctest::Approx(0.1));
     CHECK(pressure_collision(stress) == doctest::Approx(6.0));
     CHECK(pressure(stress) == doctest::Approx(7.0));
     CHECK(compressibility(stress, 0.5, 2.0) == doctest::Approx(7.0));
-    CHECK_THROWS_AS(compressibility(assembly_stress(0.5, 0.0, sum, 10.0), 0.5, 0.0), InputError);
-    CHECK_THROWS_AS(assembly_stress(0.5, 2.0, sum, 0.0), InputError);
-    CHECK_THROWS_AS(assembly_stress(-0.5, 2.0, sum, 1.0), InputError);
-    CHECK_THROWS_AS(assembly_stress(0.5, std::nan(""), sum, 1.0), InputError);
+    // Orientation stress is in the total, and has no trace; springs are in both.
+    const Mat3 turning = {{-2, 3, 0, 3, 1, 0, 0, 0, 1}};
+    const Stress whole =
+        assembly_stress(0.5, 2.0, 10.0, {.collision = sum, .orientation = turning, .springs = -1.0 * sum});
+    CHECK(whole.total()(0, 0) == doctest::Approx(0.8));
+    CHECK(whole.total()(1, 0) == doctest::Approx(0.3));
+    CHECK(whole.total()(2, 2) == doctest::Approx(1.1));
+    CHECK(pressure(whole) == doctest::Approx(1.0));
+    CHECK_THROWS_AS(compressibility(assembly_stress(0.5, 0.0, 10.0, {.collision = sum}), 0.5, 0.0), InputError);
+    CHECK_THROWS_AS(assembly_stress(0.5, 2.0, 0.0, {.collision = sum}), InputError);
+    CHECK_THROWS_AS(assembly_stress(-0.5, 2.0, 1.0, {.collision = sum}), InputError);
+    CHECK_THROWS_AS(assembly_stress(0.5, std::nan(""), 1.0, {.collision = sum}), InputError);
 }
 
 TEST_CASE("principal stresses, anisotropy ratio and asymmetry") {

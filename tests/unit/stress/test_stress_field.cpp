@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "jostle/error/input_error.hpp"
+#include "jostle/stress/orientation_stress.hpp"
+#include "jostle/stress/spherocylinder_moments.hpp"
 #include "jostle/stress/stress_field.hpp"
 #include "random_crowd.hpp"
 
@@ -13,19 +15,18 @@ using namespace jostle::test;
 
 namespace {
 
-/// Sum over cells (and outside) of the field times the cell volume.
-Mat3 total_of(const StressField& field) {
-    Mat3 sum;
-    for (std::size_t cell = 0; cell < field.size(); ++cell) sum += field.stress(cell);
-    if (field.has_outside()) sum += field.outside_stress();
-    return field.cell_volume() * sum;
+/// Sum over cells (and outside) of the fields times the cell volume.
+StressField::Content total_of(const StressField& field) {
+    StressField::Content sum;
+    for (std::size_t cell = 0; cell < field.size(); ++cell) sum.add(field.cell_volume(), field.mean(cell));
+    if (field.has_outside()) sum.add(field.cell_volume(), field.outside_mean());
+    return sum;
 }
 
-double rods_of(const StressField& field) {
-    double sum = 0.0;
-    for (std::size_t cell = 0; cell < field.size(); ++cell) sum += field.number_density(cell);
-    if (field.has_outside()) sum += field.outside_number_density();
-    return field.cell_volume() * sum;
+Rods spheres_at(const std::vector<Vec3>& centres) {
+    Rods rods;
+    for (const Vec3& centre : centres) rods.push_back(rods.size(), centre, {0, 0, 1}, 0.0, 1.0);
+    return rods;
 }
 
 /// A hat of one edge to either side, of the distance by the nearest periodic image.
@@ -51,7 +52,7 @@ std::string refusal(const Box& box, double spacing) {
 
 }  // namespace
 
-TEST_CASE("sums over the cells are V Sigma_col and N, in periodic and open boxes, for any cells") {
+TEST_CASE("sums over the cells are V Sigma_col, V Sigma_ori and N, in periodic and open boxes, for any cells") {
     std::mt19937_64 generator(41);
     MESSAGE("seed 41");
     for (const std::array<bool, 3>& periodic :
@@ -60,19 +61,23 @@ TEST_CASE("sums over the cells are V Sigma_col and N, in periodic and open boxes
             CAPTURE(spacing);
             const Crowd crowd(generator, periodic);
             const CollisionMoments moments = crowd.moments(ContactDistance::touching);
-            const Mat3 total = moments.total();
+            const Mat3 total = moments.total(), orientation = sum_of_orientation_stresses(crowd.rods, 0.7);
             StressField field(crowd.box, spacing);
-            field.add(moments, crowd.rods.centre);
-            CHECK(norm(total_of(field) - total) < 1e-12 * norm(total));
-            CHECK(rods_of(field) == doctest::Approx(static_cast<double>(crowd.rods.size())).epsilon(1e-13));
+            field.add(moments, crowd.rods, 0.7);
+            CHECK(norm(total_of(field).collision - total) < 1e-12 * norm(total));
+            CHECK(norm(total_of(field).orientation - orientation) < 1e-12 * norm(orientation));
+            CHECK(total_of(field).number_density ==
+                  doctest::Approx(static_cast<double>(crowd.rods.size())).epsilon(1e-13));
             CHECK(field.has_outside() == (periodic != std::array{true, true, true}));
             // Two more steps, one of them without contacts: the mean over three.
-            field.add({}, crowd.rods.centre);
-            field.add(moments, {});
-            CHECK(norm(total_of(field) - (2.0 / 3.0) * total) < 1e-12 * norm(total));
+            field.add({}, crowd.rods, 0.7);
+            field.add(moments, {}, 0.7);
+            CHECK(norm(total_of(field).collision - (2.0 / 3.0) * total) < 1e-12 * norm(total));
+            CHECK(norm(total_of(field).orientation - (2.0 / 3.0) * orientation) < 1e-12 * norm(orientation));
             field.clear();
-            field.add(moments, crowd.rods.centre);
-            CHECK(norm(total_of(field) - total) < 1e-12 * norm(total));
+            field.add(moments, crowd.rods, 0.0);
+            CHECK(norm(total_of(field).collision - total) < 1e-12 * norm(total));
+            CHECK(total_of(field).orientation.m == Mat3{}.m);  // nothing turns
         }
 }
 
@@ -81,7 +86,7 @@ TEST_CASE("the integral along a line is exact: against a sum over many points") 
     const Vec3 begin = {5.3, 0.2, 3.9}, separation = {2.1, -1.7, 1.3}, force = {0.3, -2.0, 1.1};
     StressField field(box, 0.9);
     CHECK(field.cells() == std::array<std::size_t, 3>{6, 5, 4});
-    field.add(one_pair(begin, separation, force), {});
+    field.add(one_pair(begin, separation, force), {}, 1.0);
     const int points = 20000;
     double largest = 0.0;
     for (std::size_t cell = 0; cell < field.size(); ++cell) {
@@ -91,7 +96,8 @@ TEST_CASE("the integral along a line is exact: against a sum over many points") 
             weight += hat(d.x, 1.0, 6.0) * hat(d.y, 1.0, 5.0) * hat(d.z, 1.0, 4.0) / points;
         }
         largest = std::max(largest, weight);
-        CHECK(norm(field.stress(cell) - weight * outer(separation, force)) < 1e-7);  // the midpoint rule's own error
+        CHECK(norm(field.mean(cell).collision - weight * outer(separation, force)) <
+              1e-7);  // the midpoint rule's own error
     }
     CHECK(largest > 0.05);
 }
@@ -101,13 +107,19 @@ TEST_CASE("a line through three cells, and a point: by hand") {
     StressField field({{4, 1, 1}, {true, true, true}}, 1.0);
     CollisionMoments moments = one_pair({0.5, 0.5, 0.5}, {2, 0, 0}, {3, 0, 0});
     moments.bodies.push_back({0, {3.75, 0.5, 0.5}, Mat3{{0, 0, 0, 0, 8, 0, 0, 0, -8}}});
-    field.add(moments, std::vector<Vec3>{{1.75, 0.1, 0.9}});
+    Rods rods;
+    rods.push_back(0, {1.75, 0.1, 0.9}, {1, 0, 0}, 5.0, 1.0);
+    field.add(moments, rods, 0.5);
     const double along[] = {1.5, 3.0, 1.5, 0.0}, across[] = {2.0, 0.0, 0.0, 6.0}, density[] = {0.0, 0.75, 0.25, 0.0};
+    const double of_rod = -2.0 * 0.5 * moment_anisotropy(5.0);  // -3 kT B (1 - 1/3)
     for (std::size_t cell = 0; cell < 4; ++cell) {
         CHECK(field.centre(cell) == Vec3{0.5 + static_cast<double>(cell), 0.5, 0.5});
-        CHECK(field.stress(cell)(0, 0) == doctest::Approx(along[cell]));
-        CHECK(field.stress(cell)(1, 1) == doctest::Approx(across[cell]));
-        CHECK(field.number_density(cell) == doctest::Approx(density[cell]));
+        const StressField::Content mean = field.mean(cell);
+        CHECK(mean.collision(0, 0) == doctest::Approx(along[cell]));
+        CHECK(mean.collision(1, 1) == doctest::Approx(across[cell]));
+        CHECK(mean.number_density == doctest::Approx(density[cell]));
+        CHECK(mean.orientation(0, 0) == doctest::Approx(of_rod * density[cell]));
+        CHECK(mean.orientation(1, 1) == doctest::Approx(-0.5 * of_rod * density[cell]));
     }
 }
 
@@ -115,23 +127,24 @@ TEST_CASE("a line through three cells, and a point: by hand") {
 // half a cell of its edge.
 TEST_CASE("open edges: what lies beyond them is counted apart") {
     StressField field({{4, 1, 1}, {false, true, true}}, 1.0);
-    field.add(one_pair({-1, 0.5, 0.5}, {4, 0, 0}, {1, 0, 0}),
-              std::vector<Vec3>{{-0.1, 0, 0}, {0.0, 0, 0}, {4.0, 0, 0}});
-    CHECK(field.outside_stress()(0, 0) == doctest::Approx(1.0));
+    field.add(one_pair({-1, 0.5, 0.5}, {4, 0, 0}, {1, 0, 0}), spheres_at({{-0.1, 0, 0}, {0.0, 0, 0}, {4.0, 0, 0}}),
+              1.0);
+    CHECK(field.outside_mean().collision(0, 0) == doctest::Approx(1.0));
     const double along[] = {1.0, 1.0, 0.875, 0.125};
-    for (std::size_t cell = 0; cell < 4; ++cell) CHECK(field.stress(cell)(0, 0) == doctest::Approx(along[cell]));
-    CHECK(field.outside_number_density() == 1.0);
-    CHECK(field.number_density(0) == 1.0);
-    CHECK(field.number_density(3) == 1.0);
+    for (std::size_t cell = 0; cell < 4; ++cell)
+        CHECK(field.mean(cell).collision(0, 0) == doctest::Approx(along[cell]));
+    CHECK(field.outside_mean().number_density == 1.0);
+    CHECK(field.mean(0).number_density == 1.0);
+    CHECK(field.mean(3).number_density == 1.0);
 }
 
 TEST_CASE("moved by one cell, the same field one cell further; through a face, too") {
     const Box box{{5, 5, 5}, {true, true, true}};
     StressField here(box, 1.0), there(box, 1.0);
-    here.add(one_pair({4.3, 4.8, 0.1}, {1.5, -0.9, -0.7}, {1, 2, 3}), {});
-    there.add(one_pair({0.3, 4.8, 0.1}, {1.5, -0.9, -0.7}, {1, 2, 3}), {});
+    here.add(one_pair({4.3, 4.8, 0.1}, {1.5, -0.9, -0.7}, {1, 2, 3}), {}, 1.0);
+    there.add(one_pair({0.3, 4.8, 0.1}, {1.5, -0.9, -0.7}, {1, 2, 3}), {}, 1.0);
     for (std::size_t cell = 0; cell < 125; ++cell)
-        CHECK(norm(here.stress(cell) - there.stress((cell + 25) % 125)) < 1e-14);
+        CHECK(norm(here.mean(cell).collision - there.mean((cell + 25) % 125).collision) < 1e-14);
 }
 
 TEST_CASE("through a checkpoint to the bit") {
@@ -139,14 +152,14 @@ TEST_CASE("through a checkpoint to the bit") {
     MESSAGE("seed 42");
     const Crowd crowd(generator);
     StressField field(crowd.box, 1.3);
-    field.add(crowd.moments(ContactDistance::touching), crowd.rods.centre);
+    field.add(crowd.moments(ContactDistance::touching), crowd.rods, 1.0);
     std::vector<double> numbers = field.to_numbers();
     StressField again = StressField::from_numbers(numbers);
     CHECK(again.cells() == field.cells());
     CHECK(again.to_numbers() == numbers);
-    for (StressField* each : {&field, &again}) each->add(crowd.moments(ContactDistance::at_start), crowd.rods.centre);
+    for (StressField* each : {&field, &again}) each->add(crowd.moments(ContactDistance::at_start), crowd.rods, 1.0);
     CHECK(again.to_numbers() == field.to_numbers());
-    CHECK(again.stress(7).m == field.stress(7).m);
+    CHECK(again.mean(7).collision.m == field.mean(7).collision.m);
     numbers.pop_back();
     CHECK_THROWS_AS(StressField::from_numbers(numbers), InputError);
     CHECK_THROWS_AS(StressField::from_numbers({}), InputError);
