@@ -45,7 +45,7 @@ def complete(folder, scene, columns=SERIES):
         if name in summary:
             assert AVERAGE <= set(summary[name]), name
             assert (summary[name]["standard_error"] is None) == ("no_standard_error_because" in summary[name])
-            assert (summary[name]["n_eff"] < 10) == (summary[name]["standard_error"] is None), name
+            assert (summary[name]["n_eff"] < 25) == (summary[name]["standard_error"] is None), name
     for entry in ("mean", "standard_error"):
         assert [len(row) for row in summary["stress_collision"][entry]] == [3, 3, 3]
     record = read(result, "run.json")
@@ -72,7 +72,7 @@ def test_summary_is_that_of_the_series(tmp_path):
         for b in range(3):
             assert summary["stress_collision"]["mean"][a][b] == pytest.approx(
                 mean(folder, f"stress_{'xyz'[a]}{'xyz'[b]}"), rel=1e-12, abs=1e-14)
-    assert summary["Z"]["n_eff"] >= 10 and summary["Z"]["standard_error"] > 0
+    assert summary["Z"]["n_eff"] >= 25 and summary["Z"]["standard_error"] > 0
     assert summary["max_overlap"] >= max(column(folder / "series.csv", "max_overlap"))
     lines = {name: column(folder / "series.csv", name) for name in SERIES}
     edge3 = 64 * math.pi / 6 / 0.3
@@ -95,7 +95,7 @@ def test_too_short_for_an_error_bar(tmp_path):
     result = run(tmp_path)
     assert result.returncode == DONE
     Z = read(tmp_path / "run", "summary.json")["Z"]
-    assert Z["standard_error"] is None and Z["n_eff"] < 10
+    assert Z["standard_error"] is None and Z["n_eff"] < 25
     assert "are needed" in Z["no_standard_error_because"]
     assert f"(no error bar: {Z['no_standard_error_because']})" in result.stdout.splitlines()[0]
 

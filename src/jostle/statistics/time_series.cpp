@@ -7,20 +7,21 @@
 #include <limits>
 
 #include "jostle/error/input_error.hpp"
+#include "jostle/statistics/columns.hpp"
+#include "jostle/statistics/student_t.hpp"
 
 namespace jostle {
 
 namespace {
 
-constexpr double window_in_correlation_times = 5.0;
-constexpr std::size_t largest_lag = 128;    // longer windows are found on a coarser level
-constexpr std::size_t fewest_blocks = 64;   // of the coarsest level that is compared with finer ones
-constexpr double significant_excess = 2.0;  // in standard deviations
+constexpr double window_in_correlation_times = 3.0;
+constexpr std::size_t largest_lag = 128;                // longer windows are found on a coarser level
+constexpr std::size_t fewest_blocks = 16;               // of the coarsest level
+constexpr std::size_t largest_number_of_blocks = 1023;  // so that a search for a drift costs no more than a few sums
 
 struct MeanError {
-    double squared_error = 0.0;   // variance of the mean
-    double relative_error = 0.0;  // standard deviation of squared_error over itself
-    bool reliable = false;        // the window closed, or only more rows could close it
+    double squared_error = 0.0;  // variance of the mean
+    bool closed = false;         // the window closed, or only more rows could close it
 };
 
 /// The second pass takes back the rounding of the first, which grows with the number of rows.
@@ -44,46 +45,54 @@ double autocovariance(const std::vector<double>& series, std::size_t lag) {
     return ((sums[0] + sums[1]) + (sums[2] + sums[3])) / static_cast<double>(terms);
 }
 
-/// Variance of the mean of one level, from the autocovariance inside a window that its own correlation time chooses.
-///
-/// With V the variance of the mean, the measured autocovariance is too small by V at every lag. So V = (sum of
-/// (1 - |k|/n)(measured + V) over |k| <= window)/n, which is solved for V. A window that is still open at n/4 means
-/// n/4 < 5 correlation times: fewer than ten effective samples, so that no error bar follows.
-MeanError mean_error(std::vector<double> series) {
+void subtract_mean(std::vector<double>& series) {
     const double mean = mean_of(series);
     for (double& value : series) value -= mean;
-    const auto n = static_cast<double>(series.size());
-    const std::size_t last_lag = std::min(largest_lag, series.size() / 4);
-    const double measured_variance = autocovariance(series, 0);
+}
+
+/// Variance of the mean from the autocovariances at lags 0, 1, ... inside a window that their own correlation time
+/// chooses.
+///
+/// With V the variance of the mean, the measured autocovariance is too small by V at every lag. So V = (sum of
+/// (1 - |k|/n)(measured + V) over |k| <= window)/n, which is solved for V.
+template <class Autocovariance>
+MeanError windowed(std::size_t rows, std::size_t last_lag, const Autocovariance& measured) {
+    const auto n = static_cast<double>(rows);
+    const double measured_variance = measured(0);
     double covariance_sum = measured_variance, weight_sum = 1.0;
-    MeanError result{0.0, 1.0, last_lag < largest_lag};
-    for (std::size_t lag = 1; lag <= last_lag; ++lag) {
+    MeanError result;
+    for (std::size_t lag = 1; lag <= last_lag && !result.closed; ++lag) {
         const double weight = 1.0 - static_cast<double>(lag) / n;
-        covariance_sum += 2.0 * weight * autocovariance(series, lag);
+        covariance_sum += 2.0 * weight * measured(lag);
         weight_sum += 2.0 * weight;
         result.squared_error = covariance_sum / (n - weight_sum);
-        result.relative_error = std::sqrt(2.0 * (2.0 * static_cast<double>(lag) + 1.0) / n);
-        const double correlation_time = 0.5 * n * result.squared_error / (measured_variance + result.squared_error);
-        if (static_cast<double>(lag) >= window_in_correlation_times * correlation_time) {
-            result.reliable = true;
-            break;
-        }
+        const double time = 0.5 * n * result.squared_error / (measured_variance + result.squared_error);
+        result.closed = static_cast<double>(lag) >= window_in_correlation_times * time;
     }
     return result;
 }
 
-/// Variance of the mean of a series: that of the finest level with a closed window, or of a coarser one that is larger.
+/// Variance of the mean of one level. A window that is still open at n/4 means fewer than six effective samples, so
+/// that no error bar follows.
+MeanError mean_error(std::vector<double> level) {
+    subtract_mean(level);
+    const std::size_t last_lag = std::min(largest_lag, level.size() / 4);
+    MeanError result = windowed(level.size(), last_lag, [&](std::size_t lag) { return autocovariance(level, lag); });
+    result.closed = result.closed || last_lag < largest_lag;
+    return result;
+}
+
+/// Variance of the mean of a series: the largest of all levels whose window is closed.
 double squared_error_of_mean(std::span<const double> series) {
     std::vector<double> level(series.begin(), series.end());
-    MeanError result = mean_error(level);
-    while (!result.reliable || level.size() / 2 >= fewest_blocks) {
+    double largest = 0.0;
+    for (bool closed = false;;) {
+        const MeanError found = mean_error(level);
+        if (found.closed) largest = std::max(largest, found.squared_error);
+        closed = closed || found.closed;
+        if (closed && level.size() / 2 < fewest_blocks) return largest;
         level = block_means(level, 2);
-        const MeanError coarser = mean_error(level);
-        const bool larger =
-            coarser.squared_error > result.squared_error * (1.0 + significant_excess * coarser.relative_error);
-        if (!result.reliable || (coarser.reliable && larger)) result = coarser;
     }
-    return result.squared_error;
 }
 
 Average without_error(Average average, std::string reason) {
@@ -119,8 +128,33 @@ Average average(std::span<const double> series) {
     if (result.effective_samples < least_effective_samples)
         return without_error(result, fmt::format("The series is worth {:.1f} independent rows; at least {} are needed.",
                                                  result.effective_samples, least_effective_samples));
-    result.standard_error = std::sqrt(variance * inefficiency / n);
+    result.standard_error =
+        std::sqrt(variance * inefficiency / n) * widening(result.effective_samples / samples_per_degree_of_freedom);
     return result;
+}
+
+double correlation_time(std::span<const std::vector<double>> columns) {
+    require_columns(columns);
+    const std::size_t block_length = columns[0].size() / largest_number_of_blocks + 1;
+    std::vector<std::vector<double>> blocks;
+    for (const auto& column : columns) {
+        blocks.push_back(block_means(column, block_length));
+        subtract_mean(blocks.back());
+    }
+    const auto measured = [&](std::size_t lag) {
+        double sum = 0.0;
+        for (const auto& column : blocks) sum += autocovariance(column, lag);
+        return sum;
+    };
+    const std::size_t count = blocks[0].size();
+    if (count < 4) return std::numeric_limits<double>::infinity();
+    const double inside = measured(0);
+    if (inside == 0.0) return 0.5 * static_cast<double>(block_length);
+    const MeanError found = windowed(count, count / 4, measured);
+    if (!found.closed) return std::numeric_limits<double>::infinity();
+    const double in_blocks =
+        std::max(0.5, 0.5 * static_cast<double>(count) * found.squared_error / (inside + found.squared_error));
+    return in_blocks * static_cast<double>(block_length);
 }
 
 std::vector<double> block_means(std::span<const double> series, std::size_t block_length) {

@@ -52,7 +52,8 @@ TEST_CASE("a drift that dies out is cut off, and little more") {
         CHECK(found.start > static_cast<std::size_t>(decay));
         CHECK(found.start < static_cast<std::size_t>(7.0 * decay));
         CHECK(found.reached);
-        CHECK(average(std::span(series).subspan(found.start)).effective_samples > 200.0);
+        // Worth some 500; the largest error of the levels may make it a quarter of that.
+        CHECK(average(std::span(series).subspan(found.start)).effective_samples > 100.0);
     }
 }
 

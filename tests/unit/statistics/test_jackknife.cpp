@@ -51,9 +51,10 @@ TEST_CASE("ratio of two means: size and coverage of the error bar") {
         held += (std::fabs(found.value - 2.0 / 3.0) < *found.standard_error) / static_cast<double>(trials);
     }
     const double exact = 2.0 / 3.0 * exact_standard_error(rows, phi) * std::sqrt(1.0 / 4.0 + 1.0 / 9.0);
-    CHECK(error == doctest::Approx(exact).epsilon(0.08));  // bias up to 6 %, scatter 1 %
-    // 4 standard deviations of a count of 300 (false alarm once in 16,000), and 0.02 for the scatter of the bars.
-    CHECK(std::fabs(held - 0.683) < 4.0 * std::sqrt(0.683 * 0.317 / trials) + 0.02);
+    CHECK(error > exact);  // the largest of the levels: up to a quarter too long, scatter 1 %
+    CHECK(error < 1.25 * exact);
+    // 4 standard deviations of a count of 300 (false alarm once in 16,000).
+    CHECK(held > 0.683 - 4.0 * std::sqrt(0.683 * 0.317 / trials));
 }
 
 TEST_CASE("fully correlated columns: the ratio is known without error") {

@@ -1,4 +1,5 @@
-// Averages of correlated series against series whose correlation time and error are known exactly.
+// Averages of correlated series against series whose correlation time and error are known exactly; how often error bars
+// hold the mean is asked in test_error_bars_cover.cpp, too.
 // A count of k successes in n trials has the standard deviation sqrt(p (1 - p)/n); limits are set at 4 of them, which
 // alarms falsely once in 16,000, plus the bias that is stated beside each limit. Seeds are fixed: these tests give the
 // same on each run.
@@ -9,6 +10,7 @@
 
 #include "autoregressive.hpp"
 #include "jostle/error/input_error.hpp"
+#include "jostle/statistics/student_t.hpp"
 #include "jostle/statistics/time_series.hpp"
 
 using namespace jostle;
@@ -62,53 +64,49 @@ TEST_CASE("error bars hold the true mean as often as they should") {
         const Coverage found = coverage(trials, [&] { return autoregressive(generator, rows, phi); });
         CAPTURE(rows);
         CAPTURE(phi);
-        // Bias allowed: 0.02, from the scatter of the error bar itself at 200 effective samples and more.
-        CHECK(std::fabs(found.one_sigma - 0.683) < four_deviations(0.683, trials) + 0.02);
-        CHECK(std::fabs(found.two_sigma - 0.954) < four_deviations(0.954, trials) + 0.02);
-        // The mean of 300 error bars with 20 % scatter each is known to 1.2 %; the bias to larger values is below 6 %.
+        // The largest of the levels errs on the safe side: bars are up to a quarter too long, so they hold more.
+        CHECK(found.one_sigma > 0.683 - four_deviations(0.683, trials));
+        CHECK(found.one_sigma < 0.79 + four_deviations(0.79, trials));  // a normal variable, within 1.25 deviations
+        CHECK(found.two_sigma > 0.954 - four_deviations(0.954, trials));
+        // The mean of 300 error bars with 20 % scatter each is known to 1.2 %.
         const double ratio = found.error / exact_standard_error(rows, phi);
-        CHECK(ratio > 0.96);
-        CHECK(ratio < 1.10);
+        CHECK(ratio > 1.0);
+        CHECK(ratio < 1.25);
         const double correlation_time = 0.5 * (1.0 + phi) / (1.0 - phi);
         CHECK(found.correlation_time > 0.9 * correlation_time);
-        CHECK(found.correlation_time < 1.2 * correlation_time);
+        CHECK(found.correlation_time < 1.6 * correlation_time);
         CHECK(found.refused == 0.0);
     }
 }
 
-TEST_CASE("a short correlated series: error bars near the limit of ten samples, and refusals below it") {
-    std::mt19937_64 generator(32);
-    MESSAGE("seed 32");
-    constexpr int trials = 500;
-    // 25 effective samples: the bar scatters by half its size, so it holds the mean 4 % less often than a sure one.
-    const Coverage few = coverage(trials, [&] { return autoregressive(generator, 475, 0.9); });
-    CHECK(few.one_sigma > 0.683 - 0.07 - four_deviations(0.683, trials));
-    CHECK(few.one_sigma < 0.683 + four_deviations(0.683, trials));
-    CHECK(few.refused < 0.15);
-    // 3 effective samples: refused three times out of four; else the series looks fast by chance, as short ones may.
-    const Coverage too_few = coverage(trials, [&] { return autoregressive(generator, 60, 0.9); });
-    CHECK(too_few.refused > 0.75 - four_deviations(0.75, trials));
+TEST_CASE("few samples widen the error bar as Student's t has it") {
+    // t of 1, 2, 5, 8 and 30 degrees of freedom is above 12.706, 4.303, 2.571, 2.306 and 2.042 once in 40 times.
+    for (const auto& [degrees, t] :
+         {std::pair{2.0, 4.303}, {3.0, 3.182}, {5.0, 2.571}, {8.0, 2.306}, {30.0, 2.042}, {1e9, 1.960}})
+        CHECK(widening(degrees) * 1.959964 == doctest::Approx(t).epsilon(0.01));
+    CHECK(widening(0.1) == widening(1.0));
+    CHECK(widening(1.0) * 1.959964 > 9.0);
 }
 
-TEST_CASE("a slow mode below fast noise is seen") {
-    // White noise of variance 1 and a mode of variance 0.09 with correlation time 50: g = (1 + 0.09 * 100)/1.09 = 9.2.
-    std::mt19937_64 generator(33);
-    MESSAGE("seed 33");
-    constexpr int trials = 100;
-    constexpr std::size_t rows = 20000;
-    const double phi = std::exp(-1.0 / 50.0);
-    const Coverage found = coverage(trials, [&] {
-        std::vector<double> series = autoregressive(generator, rows, 0.0);
-        const std::vector<double> slow = autoregressive(generator, rows, phi);
-        for (std::size_t k = 0; k < rows; ++k) series[k] += 0.3 * slow[k];
-        return series;
-    });
-    const double slow_error = 0.3 * exact_standard_error(rows, phi);
-    const double exact = std::sqrt(1.0 / rows + slow_error * slow_error);
-    // The window alone gives 0.45 here, and holds the mean in 36 % of the cases.
-    CHECK(found.error > 0.85 * exact);
-    CHECK(found.error < 1.10 * exact);
-    CHECK(found.one_sigma > 0.683 - 0.03 - four_deviations(0.683, trials));
+TEST_CASE("the correlation time of columns that fluctuate together") {
+    std::mt19937_64 generator(37);
+    MESSAGE("seed 37");
+    const double phi = std::exp(-1.0 / 50.0), exact = 0.5 * (1.0 + phi) / (1.0 - phi);
+    const auto columns = [&](std::size_t rows, std::size_t count) {
+        std::vector<std::vector<double>> result;
+        for (std::size_t k = 0; k < count; ++k) result.push_back(autoregressive(generator, rows, phi));
+        return result;
+    };
+    // The relative error of one is sqrt(12 exact/(rows columns)): 0.077 here, and the window leaves out 5 %.
+    CHECK(correlation_time(columns(20000, 5)) == doctest::Approx(exact).epsilon(4.0 * 0.077));
+    // Two correlation times of one column say nothing, but five columns together seldom pass for more than they are.
+    int seems_long = 0;
+    for (int k = 0; k < 200; ++k) seems_long += 200.0 / correlation_time(columns(200, 5)) >= 12.0;
+    CHECK(seems_long <= 20);  // one in ten
+    CHECK(correlation_time(std::vector<std::vector<double>>(2, std::vector<double>(100, 3.0))) == 0.5);
+    CHECK(std::isinf(correlation_time(std::vector<std::vector<double>>{{1, 2, 3}})));
+    CHECK_THROWS_AS(correlation_time(std::vector<std::vector<double>>{}), InputError);
+    CHECK_THROWS_AS(correlation_time(std::vector<std::vector<double>>{{1, 2}, {1}}), InputError);
 }
 
 TEST_CASE("independent rows: every row counts, and the standard deviation is that of the rows") {
@@ -120,10 +118,10 @@ TEST_CASE("independent rows: every row counts, and the standard deviation is tha
     CHECK(found.mean == doctest::Approx(5.0).epsilon(0.02));                // 5 standard errors
     CHECK(found.standard_deviation == doctest::Approx(2.0).epsilon(0.03));  // 4 standard deviations
     CHECK(found.effective_samples <= 10000.0);
-    CHECK(found.effective_samples > 5000.0);
+    CHECK(found.effective_samples > 2000.0);  // the largest error of ten levels
     REQUIRE(found.standard_error.has_value());
     CHECK(*found.standard_error ==
-          doctest::Approx(found.standard_deviation / std::sqrt(found.effective_samples)).epsilon(1e-3));
+          doctest::Approx(found.standard_deviation / std::sqrt(found.effective_samples)).epsilon(3e-3));
     CHECK(found.no_error_reason.empty());
 }
 
