@@ -147,6 +147,8 @@ PopulationGrowth population_growth(const Scene& scene, double time) {
     return {std::exp(exponent), exponent == 0.0 ? 1.0 : std::expm1(exponent) / exponent};
 }
 
+constexpr double most_rods = 4e9;  ///< rows have 32 bits
+
 void print_cost(const Scene& scene, const Population& population, const Box& box, double dt) {
     const double phi = population.volume / box.volume();
     // In whole rows of the series, as they are run.
@@ -159,7 +161,10 @@ void print_cost(const Scene& scene, const Population& population, const Box& box
     const bool colony = scene.growth.rate > 0.0 && !box.is_periodic();  // as dense as cells lie, whatever the box
     const double densest = colony ? crowded : std::max(phi, std::min(filled, crowded));
     if (scene.growth.rate > 0.0) {
-        print("N in the end, about", fmt::format("{:.3g}", count));
+        const bool too_many = !(count <= most_rods);
+        print("N in the end, about",
+              too_many ? "more than any run can hold: end it earlier" : fmt::format("{:.3g}", count));
+        if (too_many) return;
         if (box.is_periodic())
             print("phi in the end, about",
                   fmt::format("{:.3g}{}", filled, filled <= crowded ? "" : ": cells have no room to grow so many"));

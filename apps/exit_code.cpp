@@ -6,6 +6,7 @@
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/io/durable_file.hpp"
+#include "standard_streams.hpp"
 
 int exit_status(const std::function<ExitCode()>& command) {
     const auto fail = [](ExitCode code, const char* what) {
@@ -13,7 +14,10 @@ int exit_status(const std::function<ExitCode()>& command) {
         return static_cast<int>(code);
     };
     try {
-        return static_cast<int>(command());
+        const ExitCode code = command();
+        const std::string failure = output_failure();
+        if (code == ExitCode::done && !failure.empty()) return fail(ExitCode::disk, failure.c_str());
+        return static_cast<int>(code);
     } catch (const jostle::InputError& error) {
         return fail(ExitCode::bad_input, error.what());
     } catch (const jostle::DiskError& error) {

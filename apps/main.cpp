@@ -4,6 +4,8 @@
 #include "exit_code.hpp"
 #include "presentation_command.hpp"
 #include "run_command.hpp"
+#include "standard_streams.hpp"
+#include "stop_request.hpp"
 #include "stress_command.hpp"
 #include "verify_command.hpp"
 #include "version.hpp"
@@ -56,10 +58,8 @@ CLI::App* add_stress_command(CLI::App& app, StressOptions& options) {
     return stress;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    give_way_to_other_programs(argv);
+/// Reads the command line, and does what it says.
+ExitCode obey(int argc, char** argv) {
     CLI::App app{"jostle: collision stress of assemblies of rods"};
     app.set_version_flag("--version",
                          std::string("jostle ") + jostle_version + " (" + jostle_commit + ", " + jostle_compiler + ")");
@@ -112,15 +112,24 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
+        return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
     }
     options.wall_time = seconds_of(wall_time);
-    return exit_status([&]() {
-        if (run->parsed()) return run_command(options);
-        if (check->parsed()) return check_command(scene);
-        if (stress->parsed()) return stress_command(stress_options);
-        if (verify->parsed()) return verify_command(folder);
-        if (exporter->parsed()) return presentation_command("export", {"--to=" + format, "--out=" + out, "--", folder});
-        return presentation_command("report", {"--width=" + width, "--out=" + out, "--", folder});
-    });
+    if (run->parsed()) return run_command(options);
+    if (check->parsed()) return check_command(scene);
+    if (stress->parsed()) return stress_command(stress_options);
+    if (verify->parsed()) return verify_command(folder);
+    if (exporter->parsed()) return presentation_command("export", {"--to=" + format, "--out=" + out, "--", folder});
+    return presentation_command("report", {"--width=" + width, "--out=" + out, "--", folder});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    stop_request::hold();
+    open_standard_streams();
+    give_way_to_other_programs(argv);
+    if (argc > 1 && std::string_view(argv[1]) == "run") stop_request::install();
+    stop_request::release();
+    return exit_status([&] { return obey(argc, argv); });
 }

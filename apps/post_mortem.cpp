@@ -58,6 +58,7 @@ std::string advice(const StepReport& report, const Scene& scene, const Simulatio
         case LcpStatus::not_finite:
             return "  try a much smaller " + shorter + "\n";
         case LcpStatus::converged:
+        case LcpStatus::interrupted:
             return "  try a smaller " + shorter + "\n";
     }
     return "";

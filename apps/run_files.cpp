@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "jostle/io/durable_file.hpp"
 #include "jostle/io/series_columns.hpp"
 #include "jostle/io/units.hpp"
 #include "jostle/rods/space_filling_order.hpp"
@@ -93,7 +94,8 @@ std::vector<std::string> names_of(const std::vector<SeriesColumn>& columns) {
 /// The series, cut back to the checkpoint, after all files of the run were found to be sound.
 SeriesFile resumed_series(const RunDirectory& directory, const Scene& scene, const Checkpoint& checkpoint) {
     if (scene.output.trajectory_every > 0)
-        TrajectoryJournal::require_frames(directory.file("trajectory.journal"), checkpoint.trajectory_bytes);
+        TrajectoryJournal::require_frames(directory.file("trajectory.journal"), checkpoint.trajectory_bytes,
+                                          checkpoint.trajectory_hash);
     for (const SideTable& table : side_tables(scene))
         if (table.wanted)
             SeriesFile::require_prefix(directory.file(table.name + ".csv"), table.columns, checkpoint.*table.bytes,
@@ -115,7 +117,19 @@ std::vector<Mat3> stress_of_last_step(const Simulation& simulation, const std::v
     return stress;
 }
 
+void write_descriptions(const RunDirectory& directory, const Scene& scene) {
+    for (const DescribedTable& table : described_tables(scene))
+        replace_file(directory.file(table.name + ".json"), series_description(table.name, table.columns));
+}
+
 }  // namespace
+
+std::vector<DescribedTable> described_tables(const Scene& scene) {
+    std::vector<DescribedTable> tables = {{"series", series_columns(scene)}};
+    for (const SideTable& table : side_tables(scene))
+        if (table.wanted) tables.push_back({table.name, table.columns});
+    return tables;
+}
 
 RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::string resolved_scene,
                    const Simulation& simulation, const StepSums& sums)
@@ -125,7 +139,6 @@ RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::strin
       series_file_(SeriesFile::create(directory.file("series.csv"), series_columns(scene))) {
     series_ = {directory.file("series.csv"), names_of(series_file_.columns()),
                std::vector<std::vector<double>>(series_file_.columns().size())};
-    write_series_description(directory.file("series.json"), series_file_.columns());
     if (scene.output.trajectory_every > 0) {
         const bool stress = scene.output.stress_per_rod;
         journal_ = TrajectoryJournal::create(
@@ -137,8 +150,8 @@ RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::strin
     for (std::size_t k = 0; k < tables.size(); ++k) {
         if (!tables[k].wanted) continue;
         side_files_[k] = SeriesFile::create(directory.file(tables[k].name + ".csv"), tables[k].columns);
-        write_series_description(directory.file(tables[k].name + ".json"), tables[k].columns);
     }
+    write_descriptions(directory, scene);
     write_checkpoint(simulation, sums);
 }
 
@@ -150,12 +163,14 @@ RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::strin
       series_file_(resumed_series(directory, scene, checkpoint)),
       series_(read_series(directory.file("series.csv"))) {
     if (scene.output.trajectory_every > 0)
-        journal_ = TrajectoryJournal::resume(directory.file("trajectory.journal"), checkpoint.trajectory_bytes);
+        journal_ = TrajectoryJournal::resume(directory.file("trajectory.journal"), checkpoint.trajectory_bytes,
+                                             checkpoint.trajectory_hash);
     const auto tables = side_tables(scene);
     for (std::size_t k = 0; k < tables.size(); ++k)
         if (tables[k].wanted)
             side_files_[k] = SeriesFile::resume(directory.file(tables[k].name + ".csv"), tables[k].columns,
                                                 checkpoint.*tables[k].bytes, checkpoint.*tables[k].hash);
+    write_descriptions(directory, scene);  // what was there may be damaged
 }
 
 void RunFiles::append_row(const std::vector<double>& row) {
@@ -230,6 +245,7 @@ void RunFiles::write_checkpoint(const Simulation& simulation, const StepSums& su
     if (journal_) {
         journal_->sync();
         checkpoint.trajectory_bytes = journal_->bytes();
+        checkpoint.trajectory_hash = journal_->hash();
     }
     const auto tables = side_tables(scene_);
     for (std::size_t k = 0; k < tables.size(); ++k) {

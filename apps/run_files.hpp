@@ -2,6 +2,8 @@
 
 #include <array>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "jostle/io/checkpoint.hpp"
 #include "jostle/io/run_directory.hpp"
@@ -10,6 +12,15 @@
 #include "jostle/io/trajectory_journal.hpp"
 #include "jostle/simulation/scene.hpp"
 #include "jostle/simulation/simulation.hpp"
+
+/// A table that a run of a scene writes, NAME.csv, and what its columns are, which stands in NAME.json.
+struct DescribedTable {
+    std::string name;
+    std::vector<jostle::SeriesColumn> columns;
+};
+
+/// All of them, the series first.
+std::vector<DescribedTable> described_tables(const jostle::Scene& scene);
 
 /// The files that grow while a run lasts, kept in step with its checkpoints.
 ///

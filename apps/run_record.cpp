@@ -6,10 +6,10 @@
 #include <chrono>
 #include <ctime>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "jostle/io/durable_file.hpp"
 #include "jostle/parallel/parallel_for.hpp"
+#include "parsed_json.hpp"
 #include "version.hpp"
 
 using Json = nlohmann::ordered_json;
@@ -37,10 +37,14 @@ std::string processor() {
 }
 
 /// The sessions of an earlier record; a record that cannot be read is only history, so nothing hangs on it.
-std::string sessions_of(const std::string& path) {
-    if (!jostle::file_exists(path)) return "[]";
-    const Json record = Json::parse(jostle::read_file(path), nullptr, false);
-    return record.is_object() && record.contains("sessions") ? record["sessions"].dump() : "[]";
+Json sessions_of(const std::string& path) {
+    Json sessions = Json::array();
+    if (!jostle::file_exists(path)) return sessions;
+    const Json record = parsed_json(jostle::read_file(path));
+    if (!record.is_object() || !record.contains("sessions") || !record["sessions"].is_array()) return sessions;
+    for (const Json& session : record["sessions"])
+        if (session.is_object()) sessions.push_back(session);
+    return sessions;
 }
 
 }  // namespace
@@ -50,9 +54,9 @@ std::string host_name() {
     return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
-RunRecord::RunRecord(std::string path, const RunOptions& options)
-    : path_(std::move(path)),
-      earlier_sessions_(sessions_of(path_)),
+RunRecord::RunRecord(const jostle::RunDirectory& directory, const RunOptions& options)
+    : directory_(directory),
+      earlier_sessions_(sessions_of(directory.file("run.json"))),
       command_line_(options.command_line),
       started_(utc_now()),
       began_(seconds_now()) {}
@@ -68,7 +72,7 @@ void RunRecord::write(const jostle::Simulation& simulation, const std::string& e
                    {"time_step", simulation.settings().time_step},
                    {"steps", simulation.clock().step},
                    {"exit_reason", exit_reason},
-                   {"sessions", Json::parse(earlier_sessions_)}};
+                   {"sessions", earlier_sessions_}};
     record["sessions"].push_back({{"started", started_},
                                   {"command", command_line_},
                                   {"host", host_name()},
@@ -78,5 +82,6 @@ void RunRecord::write(const jostle::Simulation& simulation, const std::string& e
                                   {"last_step", simulation.clock().step},
                                   {"wall_seconds", seconds_now() - began_},
                                   {"exit_reason", exit_reason}});
-    jostle::replace_file(path_, record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    jostle::replace_file(directory_.file("run.json"),
+                         record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }

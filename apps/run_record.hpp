@@ -1,22 +1,24 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 
+#include "jostle/io/run_directory.hpp"
 #include "jostle/simulation/simulation.hpp"
 #include "run_options.hpp"
 
 /// run.json: with what, where and for how long a run was made; one entry a session in "sessions".
 class RunRecord {
 public:
-    /// `path`: of run.json; sessions that it already holds are kept.
-    RunRecord(std::string path, const RunOptions& options);
+    /// Holds the reference. Sessions that the run.json of the folder already tells are kept.
+    RunRecord(const jostle::RunDirectory& directory, const RunOptions& options);
 
     /// Writes the record with what this session has come to. `exit_reason`: "running", "done", "signal 15", ...
     void write(const jostle::Simulation& simulation, const std::string& exit_reason);
 
 private:
-    std::string path_;
-    std::string earlier_sessions_;  ///< JSON array
+    const jostle::RunDirectory& directory_;
+    nlohmann::ordered_json earlier_sessions_;  ///< array
     std::string command_line_;
     std::string started_;
     double began_ = 0.0;

@@ -11,6 +11,13 @@ namespace {
 
 volatile std::sig_atomic_t received = 0, makes_steps = 0;
 
+sigset_t stopping_signals() {
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, number);
+    return signals;
+}
+
 void on_signal(int signal) {
     // What is on disk is sound at any moment, so stopping at once loses only the steps since the last checkpoint.
     if (makes_steps == 0) {
@@ -25,6 +32,16 @@ void on_signal(int signal) {
 
 namespace stop_request {
 
+void hold() {
+    const sigset_t signals = stopping_signals();
+    sigprocmask(SIG_BLOCK, &signals, nullptr);
+}
+
+void release() {
+    const sigset_t signals = stopping_signals();
+    sigprocmask(SIG_UNBLOCK, &signals, nullptr);
+}
+
 void install() {
     struct sigaction action {};
     action.sa_handler = on_signal;
@@ -32,6 +49,9 @@ void install() {
     action.sa_flags = SA_RESTART;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    struct sigaction hang_up {};
+    sigaction(SIGHUP, nullptr, &hang_up);
+    if (hang_up.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // nohup has it ignored
     std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is then an error of the write, like a full disk
 }
 

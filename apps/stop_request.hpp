@@ -1,9 +1,14 @@
 #pragma once
 
-/// Ctrl-C and SIGTERM: the first asks the run to stop after the step at hand, the second ends the process at once.
-/// Before the first step, while a start is made or a checkpoint read, the first does.
+/// Ctrl-C, SIGTERM and a terminal that is closed (SIGHUP): the first asks the run to stop at the step at hand, the
+/// second ends the process at once. Before the first step, while a start is made or a checkpoint read, the first does.
 namespace stop_request {
 
+/// Signals wait from here to `release`, also while the program begins once more.
+void hold();
+void release();
+
+/// From now on signals are requests.
 void install();
 
 /// From now on steps are made.

@@ -1,12 +1,15 @@
 #include "verify_command.hpp"
 
 #include <cstdio>
+#include <optional>
+#include <string_view>
 
 #include "jostle/io/checkpoint.hpp"
 #include "jostle/io/h5md_writer.hpp"
 #include "jostle/io/run_directory.hpp"
 #include "jostle/io/series_file.hpp"
 #include "jostle/io/trajectory_journal.hpp"
+#include "verify_texts.hpp"
 
 using namespace jostle;
 
@@ -24,7 +27,8 @@ std::uint64_t count_frames(const std::string& path) {
 void verify_growing_files(const std::string& folder, const Checkpoint& checkpoint) {
     require_same_bytes(folder + "/series.csv", checkpoint.series_bytes, checkpoint.series_hash);
     if (checkpoint.trajectory_bytes > 0)
-        TrajectoryJournal::require_frames(folder + "/trajectory.journal", checkpoint.trajectory_bytes);
+        TrajectoryJournal::require_frames(folder + "/trajectory.journal", checkpoint.trajectory_bytes,
+                                          checkpoint.trajectory_hash);
     if (checkpoint.contacts_bytes > 0)
         require_same_bytes(folder + "/contacts.csv", checkpoint.contacts_bytes, checkpoint.contacts_hash);
     if (checkpoint.field_bytes > 0)
@@ -39,12 +43,13 @@ ExitCode verify_command(const std::string& folder) {
     if (!is_run_directory(folder))
         throw refused_file(folder, "this is not the folder of a run", "Give the folder that `jostle run` named");
     const auto path = [&](const char* name) { return folder + "/" + name; };
+    std::optional<Checkpoint> latest;
     for (const char* name : {"checkpoint.previous", "checkpoint"}) {
         if (!file_exists(path(name))) continue;
-        const Checkpoint checkpoint =
+        latest =
             std::string_view(name) == "checkpoint" ? latest_checkpoint(folder).value() : read_checkpoint(path(name));
-        verify_growing_files(folder, checkpoint);
-        std::printf("%s: sound, step %llu\n", name, static_cast<unsigned long long>(checkpoint.step));
+        verify_growing_files(folder, *latest);
+        std::printf("%s: sound, step %llu\n", name, static_cast<unsigned long long>(latest->step));
     }
     if (file_exists(path("series.csv")))
         std::printf("series.csv: sound, %zu rows\n", read_series(path("series.csv")).rows());
@@ -55,5 +60,6 @@ ExitCode verify_command(const std::string& folder) {
         verify_h5md(path("trajectory.h5"));
         std::printf("trajectory.h5: sound\n");
     }
+    if (latest) verify_texts(folder, *latest);
     return ExitCode::done;
 }

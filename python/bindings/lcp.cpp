@@ -99,9 +99,11 @@ const char* word_for(LcpStatus status) {
         case LcpStatus::infeasible:
             return "infeasible";
         case LcpStatus::not_finite:
+            return "not_finite";
+        case LcpStatus::interrupted:
             break;
     }
-    return "not_finite";
+    return "interrupted";
 }
 
 /// What every kind of matrix is solved with.

@@ -51,7 +51,7 @@ SimulationInPython::SimulationInPython(SceneInPython scene, Checkpoint checkpoin
     : scene_(std::move(scene)),
       simulation_(assemble(scene_.scene, checkpoint.box, std::move(checkpoint.rods), {checkpoint.step, checkpoint.time},
                            std::move(checkpoint.springs), std::move(checkpoint.last_forces))),
-      sums_(StepSums::from_numbers(checkpoint.accumulators)) {}
+      sums_(StepSums::from_numbers(checkpoint.accumulators, scene_.scene)) {}
 
 void SimulationInPython::step() {
     require_between_steps();

@@ -51,6 +51,7 @@ VALUES = [
     ("motion", "self_propulsion_deviation", 0.5, "is not used with motion.self_propulsion = 0", "Set self_propulsion"),
     ("motion", "reversal_rate", 0.0, "is not used with motion.self_propulsion = 0", "or remove it"),
     ("output", "active_stress_lag", 3.0, "is not used with motion.self_propulsion = 0", "nothing swims"),
+    ("contact", "range", 1e12, "reaches beyond what a rod can touch: the longest measures 3 from end to end", "at most 3"),
     ("contact", "energy", 1.0, 'is not used with contact.model = "hard"', 'Set model = "wca"'),
     ("growth", "rate", -1.0, "is negative", "at least 0"),
     ("growth", "death_rate", 0.1, "is not used without growth.rate", "Add rate"),
@@ -142,11 +143,11 @@ def test_swimmers_too_fast_for_a_step_from_the_diffusion(tmp_path):
     scene = changed(RODS, motion={"self_propulsion": 1.0, "tumble_rate": 0.5, "tumble_time": 0.01}, time={"step": None})
     write_scene(tmp_path, scene)
     for name in ("check", "run"):
-        require_one_line(command(tmp_path, name, "scene.toml"), "jostle: scene.toml: motion.tumble_time = 0.01: is too short",
+        require_one_line(command(tmp_path, name, "scene.toml"), "jostle: scene.toml:18:15: motion.tumble_time = 0.01: is too short",
                          "(allowed: at least ", "Use a shorter time.step or slower tumbles")
     write_scene(tmp_path, changed(scene, motion={"self_propulsion": 3000.0, "tumble_time": None}))
     for name in ("check", "run"):
-        require_one_line(command(tmp_path, name, "scene.toml"), "jostle: scene.toml: motion.self_propulsion = 3000: takes a rod",
+        require_one_line(command(tmp_path, name, "scene.toml"), "jostle: scene.toml:16:19: motion.self_propulsion = 3000.0: takes a rod",
                          "(allowed: speeds up to ", "Use a shorter time.step or slower swimmers")
     assert sorted(entry.name for entry in tmp_path.iterdir()) == ["scene.toml"]
 
@@ -155,7 +156,7 @@ def test_swimmers_too_fast_for_a_step_from_the_diffusion(tmp_path):
 def test_times_beside_a_step_from_the_diffusion(tmp_path, production, part):
     write_scene(tmp_path, changed(RODS, time={"step": None, "rms_step": 0.03, "production": production}))
     for name in ("check", "run"):
-        require_one_line(command(tmp_path, name, "scene.toml"), "scene.toml: time.production = ", part)
+        require_one_line(command(tmp_path, name, "scene.toml"), f"scene.toml:9:14: time.production = {production}: ", part)
     assert sorted(entry.name for entry in tmp_path.iterdir()) == ["scene.toml"]
 
 
@@ -204,6 +205,18 @@ def test_missing_key(tmp_path, table, key, example):
                      f"Add {example}")
 
 
+@pytest.mark.parametrize("table, key, value, problem", [("time", "production", 1e-12, "is shorter than one step"),
+                                                        ("output", "field_spacing", 1e-3, "makes too many cells"),
+                                                        ("motion", "self_propulsion", 1e6, "takes a rod through others")])
+def test_what_is_found_once_there_are_rods_has_its_place(tmp_path, table, key, value, problem):
+    scene = changed(RODS, time={"step": None, "rms_step": 0.03}, output={"field_every": 5})
+    scene = changed(scene, **{table: {key: value}})
+    write_scene(tmp_path, scene)
+    for name in ("check", "run"):
+        require_one_line(command(tmp_path, name, "scene.toml"), f"jostle: scene.toml:{place_of(scene_text(scene), table, key)}: "
+                         f"{table}.{key} = {value}: {problem}")
+
+
 def test_thin_box(finished_copy):
     scene = changed(RODS, box={"volume_fraction": None, "edges": [30.0, 30.0, 0.9]})
     refuse(finished_copy, scene, f"scene.toml:{place_of(scene_text(scene), 'box', 'edges')}: box.edges = "
@@ -246,7 +259,7 @@ def test_missing_scene(tmp_path):
                          'Did you mean "scene.toml"?')
         require_one_line(command(tmp_path, name, "."), "is a directory")
     (tmp_path / "binary.toml").write_bytes(b"\x00\x01\x02")
-    require_one_line(command(tmp_path, "check", "binary.toml"), "is not a text file")
+    require_one_line(command(tmp_path, "check", "binary.toml"), "binary.toml:1: scene: is not a text file")
     assert sorted(entry.name for entry in tmp_path.iterdir()) == ["binary.toml", "scene.toml"]
 
 
@@ -254,7 +267,7 @@ FILE_START = changed(RODS, rods={"count": None, "start": "file", "file": "rods.c
                      box={"volume_fraction": None, "edges": [12.0, 12.0, 12.0]})
 HEADER = "x,y,z,nx,ny,nz\n"
 RODS_FILES = {
-    "no such file": (None, "rods.csv: there is no such file"),
+    "no such file": (None, "scene.toml:7:8: rods.file = \"rods.csv\": there is no such file: rods.csv"),
     "empty": ("", "rods.csv"),
     "no rods": (HEADER, "rods.csv", "the file holds no rods"),
     "missing column": ("x,y,z,nx,ny\n1,1,1,1,0\n", 'rods.csv:1: the column "nz" is missing',

@@ -99,6 +99,14 @@ def test_growing_cells(tmp_path):
     assert dying["N in the end, about"] == "50"
 
 
+def test_cells_that_grow_beyond_all_bounds(tmp_path):
+    cells = changed(RODS, rods={"count": 50, "length": 1.0}, growth={"rate": 0.5, "division_length": 3.0},
+                    time={"production": 1e6}, box={"volume_fraction": 0.02})
+    _, derived = check(tmp_path, cells)
+    assert derived["N in the end, about"] == "more than any run can hold: end it earlier"
+    assert "inf" not in " ".join(derived.values()) and "memory, about" not in derived
+
+
 def test_the_fastest_swimmer(tmp_path):
     _, derived = check(tmp_path, changed(RODS, motion={"self_propulsion": 1.0, "self_propulsion_deviation": 1.0}))
     assert 0.04 < number(derived["propelled per step / D"]) < 0.1  # of 50 rods, some 2.2 deviations above the mean
@@ -143,7 +151,9 @@ def test_verify_of_a_sound_run(finished_copy):
     assert result.returncode == DONE and result.stderr == ""
     assert result.stdout == ("checkpoint.previous: sound, step 96\ncheckpoint: sound, step 100\n"
                              "series.csv: sound, 20 rows\ntrajectory.journal: sound, 9 frames\n"
-                             "trajectory.h5: sound\n")
+                             "trajectory.h5: sound\n"
+                             "scene.toml: sound\nresolved.toml: sound\nseries.json: sound\ncontacts.json: sound\n"
+                             "run.json: sound\nsummary.json: sound\n")
     assert snapshot(finished_copy) == before and (finished_copy / "run/lock").read_bytes() == lock
 
 

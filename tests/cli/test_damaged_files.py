@@ -1,7 +1,10 @@
 """Files of a run that are truncated, damaged or of another run: found, told, exit 2, and nothing has changed."""
 
 import ctypes
+import json
+import math
 import shutil
+import struct
 
 import pytest
 
@@ -68,6 +71,34 @@ def test_checkpoint_of_another_version(torn_copy):
     content[8] = other
     path.write_bytes(sealed(content))
     refuse(torn_copy, f"run/checkpoint: the checkpoint has format version {other}, this jostle reads version {this}")
+
+
+def place_in_checkpoint(content, what, row=0):
+    """Where a number stands, by the format: header, scene, step, time, edges, 3 flags, N, arrays."""
+    text = int.from_bytes(content[HEADER:HEADER + 8], "little")
+    step = HEADER + 8 + text
+    count_at = step + 16 + 24 + 3
+    count = int.from_bytes(content[count_at:count_at + 8], "little")
+    assert count == RODS["rods"]["count"]
+    places, place = {"step": step, "time": step + 8, "edge": step + 16, "count": count_at}, count_at + 8
+    for name, width in (("centre", 24), ("axis", 24), ("length", 8), ("diameter", 8), ("id", 8)):
+        places[name] = place + width * row
+        place += width * count
+    return places[what]
+
+
+@pytest.mark.parametrize("what, value", [("time", math.nan), ("edge", math.nan), ("edge", 1e300), ("edge", -1.0), ("edge", 0.0),
+                                         ("centre", math.nan), ("centre", 1e30), ("axis", 1e300), ("length", math.inf),
+                                         ("length", -2.0), ("diameter", 0.0), ("count", 2**40), ("count", 2**63), ("count", 49),
+                                         ("id", 50), ("id", 2**63), ("step", 2**64 - 1)])
+def test_forged_checkpoint(torn_copy, what, value):
+    """Absurd numbers under a right checksum: one clear refusal, not a crash."""
+    path = torn_copy / "run/checkpoint"
+    content = bytearray(path.read_bytes()[:-8])
+    place = place_in_checkpoint(content, what)
+    content[place:place + 8] = struct.pack("<d" if isinstance(value, float) else "<Q", value)
+    path.write_bytes(sealed(content))
+    refuse(torn_copy, "run/checkpoint: the checkpoint ", "again with --fresh")
 
 
 @pytest.mark.parametrize("left", [0, 7, HEADER, 100, 0.5, -9, -1])
@@ -164,6 +195,77 @@ def test_damage_beyond_the_checkpoint_is_cut_away(torn_copy, name):
     result = run(torn_copy, "--walltime", "0:00:01")
     assert f"going on from step {step}\n" in result.stderr, result.stderr
     assert command(torn_copy, "verify", "run").returncode == DONE
+
+
+def test_journal_of_another_run(finished_copy, tmp_path):
+    """As long, with as many rods, frames at the same steps, every checksum right: and yet of another seed."""
+    write_scene(tmp_path / "other", changed(RODS, seed=8))
+    theirs, ours = finish(tmp_path / "other") / "trajectory.journal", finished_copy / "run/trajectory.journal"
+    assert theirs.stat().st_size == ours.stat().st_size
+    shutil.copy(theirs, ours)
+    refuse(finished_copy, "run/trajectory.journal: the trajectory is of another run", "Put the file back")
+
+
+# What makes each of them wrong, beside being cut or missing.
+TEXTS = {
+    "scene.toml": ("length = 2.0", "length = 2.5"),
+    "resolved.toml": ("production = 2", "production = 3"),
+    "series.json": ('"unit"', '"unti"'),
+    "contacts.json": ("contact force", "contact farce"),
+    "run.json": ('"steps": ', '"steps": "many", "other": '),
+    "summary.json": ('"max_overlap"', '"max_overlup"'),
+}
+
+
+@pytest.mark.parametrize("name", TEXTS)
+@pytest.mark.parametrize("damage", ["missing", "empty", "cut", "changed"])
+def test_files_that_are_written_anew(finished_copy, finished, name, damage):
+    path = finished_copy / "run" / name
+    text = path.read_text()
+    if damage == "missing":
+        path.unlink()
+    elif damage == "changed":
+        assert TEXTS[name][0] in text
+        path.write_text(text.replace(*TEXTS[name]))
+    else:
+        path.write_text("" if damage == "empty" else text[:len(text) // 2])
+    before = snapshot(finished_copy)
+    require_found(finished_copy, f"run/{name}")
+    assert snapshot(finished_copy) == before
+    finish(finished_copy)
+    require_same_results(finished_copy / "run", finished / "run")
+    assert command(finished_copy, "verify", "run").returncode == DONE
+
+
+def test_a_run_whose_scene_was_removed_goes_on(torn_copy):
+    for name in ("scene.toml", "resolved.toml", "series.json", "run.json"):
+        (torn_copy / "run" / name).unlink()
+    assert run(torn_copy, "--walltime", "0:00:01").returncode == 75
+    assert (torn_copy / "run/scene.toml").read_bytes() == (torn_copy / "scene.toml").read_bytes()
+    assert command(torn_copy, "verify", "run").returncode == DONE
+
+
+@pytest.mark.parametrize("record", ['{"sessions": 5}', '{"sessions": "x"}', '{"sessions": {"a": 1}}', '{"sessions": true}',
+                                    '{"sessions": [1, [2], null]}', "[]", "5", "{", "", '{"sessions": ' + 200_000 * "[",
+                                    '{"sessions": ' + 200_000 * "[" + 200_000 * "]" + "}"], ids=lambda text: text[:30])
+def test_a_record_that_is_none(finished_copy, finished, record):
+    """It is only history: a run goes on without it."""
+    path = finished_copy / "run/run.json"
+    path.write_text(record)
+    require_found(finished_copy, "run/run.json: is damaged")
+    finish(finished_copy)
+    require_same_results(finished_copy / "run", finished / "run")
+    assert len(json.loads(path.read_text())["sessions"]) == 1
+
+
+def test_bytes_after_the_trajectory_or_a_seal_that_is_cut(finished_copy):
+    path = finished_copy / "run/trajectory.h5"
+    content = path.read_bytes()
+    for changed_content in (content + b"ab", content[:-1], content[:-SEAL + 3], content + content[-SEAL:], content[:-SEAL] + SEAL * b"x"):
+        path.write_bytes(changed_content)
+        require_found(finished_copy, "run/trajectory.h5: the trajectory is damaged")
+    path.write_bytes(content[:-SEAL])  # as another program leaves it that wrote into it
+    assert command(finished_copy, "verify", "run").returncode == DONE
 
 
 def test_flipped_bits_in_trajectory(finished_copy, finished):

@@ -13,6 +13,13 @@ namespace {
 constexpr double largest_cells_per_rod = 4.0;
 /// So much of the rods, at either end of an open direction, may lie in the outermost cells where there are too many.
 constexpr double outliers = 0.02;
+/// Along a direction; and to either side of a cell. Sums and products of both stay whole numbers.
+constexpr double most_cells = 1e6, widest_reach = 1 << 30;
+
+/// The whole number nearest to `value` within bounds: a plain cast has no meaning beyond them.
+int whole(double value, double lowest, double highest) {
+    return static_cast<int>(value > lowest ? (value < highest ? value : highest) : lowest);
+}
 
 /// Along one direction: all rods but a part of them at either end lie between.
 std::pair<double, double> middle_of(const Rods& rods, int direction, double part) {
@@ -46,10 +53,9 @@ CellGrid::CellGrid(const Rods& rods, const Box& box, double range) : periodic_(b
     if (cells() > allowed) edge *= std::cbrt(cells() / allowed);
     for (int k = 0; k < 3; ++k) {
         const auto direction = static_cast<std::size_t>(k);
-        const double number = std::clamp(std::floor(extent[k] / edge), 1.0, 1e6);
-        count_[direction] = static_cast<int>(number);
-        cells_per_length_[k] = number / extent[k];
-        width_[direction] = static_cast<int>(std::ceil(range * cells_per_length_[k]));
+        count_[direction] = whole(std::floor(extent[k] / edge), 1.0, most_cells);
+        cells_per_length_[k] = count_[direction] / extent[k];
+        width_[direction] = whole(std::ceil(range * cells_per_length_[k]), 0.0, widest_reach);
     }
 }
 
@@ -59,8 +65,7 @@ std::size_t CellGrid::cell_of(const Vec3& centre) const {
         const auto direction = static_cast<std::size_t>(k);
         const double position = std::floor((centre[k] - origin_[k]) * cells_per_length_[k]);
         // Rounding may put a wrapped centre on the upper face; in an open direction the outer cells are unbounded.
-        cell[direction] =
-            static_cast<std::size_t>(std::clamp(position, 0.0, static_cast<double>(count_[direction] - 1)));
+        cell[direction] = static_cast<std::size_t>(whole(position, 0.0, count_[direction] - 1));
     }
     return (cell[2] * static_cast<std::size_t>(count_[1]) + cell[1]) * static_cast<std::size_t>(count_[0]) + cell[0];
 }

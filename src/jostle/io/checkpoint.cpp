@@ -16,7 +16,7 @@ namespace {
 
 // The first byte is no text and the last is a newline, so that a file mangled as text no longer matches.
 constexpr std::string_view magic = "\x89JOSTLE\n";
-constexpr std::uint32_t format_version = 6;
+constexpr std::uint32_t format_version = 7;
 constexpr std::size_t header_bytes = 24;
 constexpr std::size_t checksum_bytes = 8;
 constexpr const char* start_again = "Start the run again with --fresh";
@@ -150,6 +150,7 @@ Payload payload_of(const Checkpoint& checkpoint) {
     writer.put(checkpoint.series_bytes);
     writer.put(checkpoint.series_hash);
     writer.put(checkpoint.trajectory_bytes);
+    writer.put(checkpoint.trajectory_hash);
     writer.put(checkpoint.contacts_bytes);
     writer.put(checkpoint.contacts_hash);
     writer.put(checkpoint.field_bytes);
@@ -175,6 +176,7 @@ Checkpoint from_payload(std::string_view payload) {
     checkpoint.series_bytes = reader.take<std::uint64_t>();
     checkpoint.series_hash = reader.take<std::uint64_t>();
     checkpoint.trajectory_bytes = reader.take<std::uint64_t>();
+    checkpoint.trajectory_hash = reader.take<std::uint64_t>();
     checkpoint.contacts_bytes = reader.take<std::uint64_t>();
     checkpoint.contacts_hash = reader.take<std::uint64_t>();
     checkpoint.field_bytes = reader.take<std::uint64_t>();
@@ -262,11 +264,15 @@ void write_checkpoint(const std::string& folder, const Checkpoint& checkpoint) {
 Checkpoint read_checkpoint(const std::string& path) {
     const std::string file = read_file(path);
     const std::string_view payload = verified_payload(path, file);
+    Checkpoint checkpoint;
     try {
-        return from_payload(payload);
+        checkpoint = from_payload(payload);
     } catch (const std::out_of_range& problem) {
         throw refused_file(path, std::string("the checkpoint is damaged: ") + problem.what(), start_again);
     }
+    if (const std::string problem = impossible_content(checkpoint); !problem.empty())
+        throw refused_file(path, "the checkpoint holds what no run has written: " + problem, start_again);
+    return checkpoint;
 }
 
 std::optional<Checkpoint> latest_checkpoint(const std::string& folder) {
@@ -298,22 +304,27 @@ void require_same_springs(const Checkpoint& checkpoint, std::vector<Spring> spri
     }
 }
 
-void require_same_scene(const Checkpoint& checkpoint, const std::string& scene, const std::string& folder) {
+std::string scene_difference(const std::string& scene_before, const std::string& scene_now) {
     const auto only_tells_the_end = [](std::string_view line) {
         return line.starts_with("production = ") || line.starts_with("equilibration = ");
     };
-    std::istringstream before(checkpoint.scene), now(scene);
+    std::istringstream before(scene_before), now(scene_now);
     std::string line_before, line_now;
     int line = 0;
     do {
         ++line;
         if (!std::getline(before, line_before)) line_before = "(nothing)";
         if (!std::getline(now, line_now)) line_now = "(nothing)";
-        if (!before && !now) return;
+        if (!before && !now) return "";
     } while (line_before == line_now || (only_tells_the_end(line_before) && only_tells_the_end(line_now)));
-    throw refused_file(folder + "/checkpoint",
-                       "the checkpoint is of another scene: line " + std::to_string(line) +
-                           " of the resolved scene was \"" + line_before + "\" and is \"" + line_now + "\"",
+    return "line " + std::to_string(line) + " of the resolved scene was \"" + line_before + "\" and is \"" + line_now +
+           "\"";
+}
+
+void require_same_scene(const Checkpoint& checkpoint, const std::string& scene, const std::string& folder) {
+    const std::string difference = scene_difference(checkpoint.scene, scene);
+    if (difference.empty()) return;
+    throw refused_file(folder + "/checkpoint", "the checkpoint is of another scene: " + difference,
                        "Restore the scene, give another folder with --out, or start again with --fresh");
 }
 

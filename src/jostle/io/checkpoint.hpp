@@ -25,6 +25,7 @@ struct Checkpoint {
     std::uint64_t series_bytes = 0;      ///< length of series.csv, with the header
     std::uint64_t series_hash = 0;       ///< checksum of these bytes
     std::uint64_t trajectory_bytes = 0;  ///< length of trajectory.journal; 0: the run keeps no trajectory
+    std::uint64_t trajectory_hash = 0;   ///< checksum of these bytes
     std::uint64_t contacts_bytes = 0;    ///< length of contacts.csv; 0: the run keeps none
     std::uint64_t contacts_hash = 0;     ///< checksum of these bytes
     std::uint64_t field_bytes = 0;       ///< length of field.csv; 0: the run keeps none
@@ -44,8 +45,14 @@ void write_checkpoint(const std::string& folder, const Checkpoint& checkpoint);
 ///
 /// Format: 8 bytes "\x89JOSTLE\n", version (u32), 0 (u32), payload length (u64), payload, XXH3 checksum (u64) of all
 /// before; numbers little endian, doubles as they are.
-/// Errors: InputError that tells apart a missing, foreign, truncated or damaged file and another format version.
+/// Errors: InputError that tells apart a missing, foreign, truncated or damaged file, another format version, and
+/// contents that no run can have written (`impossible_content`).
 Checkpoint read_checkpoint(const std::string& path);
+
+/// What no run can have left in a checkpoint, in words: a number that is not finite or out of its range, a rod outside
+/// the box, an id that stands twice; empty if all of it is possible. A file can have a right checksum and yet be made
+/// by hand.
+std::string impossible_content(const Checkpoint& checkpoint);
 
 /// The checkpoint to go on from: FOLDER/checkpoint, or FOLDER/checkpoint.previous if a kill left only that, or none.
 ///
@@ -56,6 +63,10 @@ std::optional<Checkpoint> latest_checkpoint(const std::string& folder);
 /// Refuses a checkpoint of other springs than the file at `path` holds now: the scene only names it. Errors:
 /// InputError.
 void require_same_springs(const Checkpoint& checkpoint, std::vector<Spring> springs, const std::string& path);
+
+/// The first line in which two resolved scenes differ, in words; lines that only tell when to end do not count. Empty
+/// if there is none.
+std::string scene_difference(const std::string& before, const std::string& now);
 
 /// Refuses a checkpoint of another scene, but for time.production and time.equilibration, which only tell when to end;
 /// the message names the first line that differs. Errors: InputError.

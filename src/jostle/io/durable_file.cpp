@@ -28,10 +28,26 @@ auto uninterrupted(Call call) {
     return result;
 }
 
-std::uint64_t size_of(int descriptor, const std::string& path) {
+struct stat status_of(int descriptor, const std::string& path) {
     struct stat status {};
     if (::fstat(descriptor, &status) < 0) throw DiskError(path, "ask for the size", errno);
+    return status;
+}
+
+/// The size of a file, or 0 for a pipe. Devices are refused: some have no end.
+std::uint64_t readable_size(int descriptor, const std::string& path) {
+    const struct stat status = status_of(descriptor, path);
+    if (S_ISDIR(status.st_mode)) throw refused_file(path, "is a folder, not a file", "Check the name");
+    if (!S_ISREG(status.st_mode) && !S_ISFIFO(status.st_mode))
+        throw refused_file(path, "is a device, not a file", "Check the name");
     return static_cast<std::uint64_t>(status.st_size);
+}
+
+/// Files are opened without waiting, for a pipe that nobody writes to would be waited for without end. From here on
+/// reads and writes wait.
+void wait_again(int descriptor, const std::string& path) {
+    const int flags = ::fcntl(descriptor, F_GETFL);
+    if (flags < 0 || ::fcntl(descriptor, F_SETFL, flags & ~O_NONBLOCK) < 0) throw DiskError(path, "open", errno);
 }
 
 }  // namespace
@@ -51,10 +67,12 @@ InputError refused_file(const std::string& path, std::string problem, std::strin
 }
 
 AppendFile::AppendFile(std::string path) : path_(std::move(path)) {
-    descriptor_ = uninterrupted([&] { return ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666); });
+    constexpr int flags = O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC;
+    descriptor_ = uninterrupted([&] { return ::open(path_.c_str(), flags | O_NONBLOCK, 0666); });
     if (descriptor_ < 0) throw DiskError(path_, "open for writing", errno);
     try {
-        size_ = size_of(descriptor_, path_);
+        wait_again(descriptor_, path_);
+        size_ = static_cast<std::uint64_t>(status_of(descriptor_, path_).st_size);
     } catch (...) {
         ::close(descriptor_);
         throw;
@@ -101,17 +119,18 @@ void AppendFile::sync() {
 }
 
 ReadFile::ReadFile(std::string path) : path_(std::move(path)) {
-    descriptor_ = uninterrupted([&] { return ::open(path_.c_str(), O_RDONLY | O_CLOEXEC); });
+    descriptor_ = uninterrupted([&] { return ::open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC); });
     if (descriptor_ < 0 && (errno == ENOENT || errno == ENOTDIR))
         throw refused_file(path_, "there is no such file", "Check the name");
+    if (descriptor_ < 0 && errno == ENXIO) throw refused_file(path_, "is a socket, not a file", "Check the name");
     if (descriptor_ < 0) throw DiskError(path_, "open for reading", errno);
-    struct stat status {};
-    const bool failed = ::fstat(descriptor_, &status) < 0;
-    const int error_number = errno;
-    if (failed || S_ISDIR(status.st_mode)) ::close(descriptor_);
-    if (failed) throw DiskError(path_, "ask for the size", error_number);
-    if (S_ISDIR(status.st_mode)) throw refused_file(path_, "is a folder, not a file", "Check the name");
-    size_ = static_cast<std::uint64_t>(status.st_size);
+    try {
+        size_ = readable_size(descriptor_, path_);
+        wait_again(descriptor_, path_);
+    } catch (...) {
+        ::close(descriptor_);
+        throw;
+    }
 }
 
 ReadFile::~ReadFile() {

@@ -55,10 +55,10 @@ private:
     std::uint64_t size_ = 0;
 };
 
-/// A file read from its beginning.
+/// A file read from its beginning, or a pipe, which is empty where nobody writes to it.
 class ReadFile {
 public:
-    /// Errors: InputError if there is no such file or it is a folder; DiskError otherwise.
+    /// Errors: InputError if there is no such file, or it is a folder or a device; DiskError otherwise.
     explicit ReadFile(std::string path);
     ReadFile(const ReadFile&) = delete;
     ReadFile& operator=(const ReadFile&) = delete;

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::string_view seal_mark = "\x89JH5MD\r\n";
 constexpr std::uint64_t seal_bytes = 24;
+constexpr const char* make_again = "Make it again from the journal by running the same command, or take a copy";
 
 struct Seal {
     std::uint64_t bytes = 0;  ///< of the file before the seal
@@ -36,7 +37,7 @@ std::uint64_t checksum_of(const std::string& path, std::uint64_t bytes, std::str
 }
 
 /// Whether the seal is there; throws InputError if it is and does not match.
-bool seal_is_sound(const std::string& path, const std::string& suggestion) {
+bool seal_is_sound(const std::string& path) {
     const std::uint64_t size = ReadFile(path).size();
     if (size < seal_bytes) return false;
     std::string end;
@@ -45,7 +46,22 @@ bool seal_is_sound(const std::string& path, const std::string& suggestion) {
     ByteReader reader(std::string_view(end).substr(seal_mark.size()));
     const Seal seal{reader.take<std::uint64_t>(), reader.take<std::uint64_t>()};
     if (seal.bytes == size - seal_bytes && seal.hash == hash) return true;
-    throw refused_file(path, "the trajectory is damaged: its bytes do not match the checksum at its end", suggestion);
+    throw refused_file(path, "the trajectory is damaged: its bytes do not match the checksum at its end", make_again);
+}
+
+/// Where HDF5's own part of the file ends: written in its superblock (versions 2 and 3 of the format).
+std::optional<std::uint64_t> end_of_hdf5(const std::string& path) {
+    constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
+    constexpr std::size_t place = 28;
+    std::string head;
+    ReadFile(path).read_up_to(place + sizeof(std::uint64_t), head);
+    if (!head.starts_with(signature))
+        throw refused_file(path,
+                           "the trajectory is damaged or no H5MD file of jostle: it does not begin as HDF5 files do",
+                           make_again);
+    const bool knows_its_end = head.size() == place + sizeof(std::uint64_t) && (head[8] == 2 || head[8] == 3);
+    if (!knows_its_end) return std::nullopt;
+    return ByteReader(std::string_view(head).substr(place)).take<std::uint64_t>();
 }
 
 void read_through(hid_t dataset) {
@@ -101,9 +117,15 @@ void seal_h5md(const std::string& path) {
 }
 
 void verify_h5md(const std::string& path) {
-    const std::string suggestion = "Make it again from the journal by running the same command, or take a copy";
-    // First the seal: HDF5 1.10 can hang in a damaged file, so it should not be the one to find the damage.
-    seal_is_sound(path, suggestion);
+    // First what can be seen without HDF5, which can hang in a damaged file (1.10), or in a pipe.
+    const std::optional<std::uint64_t> end = end_of_hdf5(path);
+    const std::uint64_t size = ReadFile(path).size();
+    if (!seal_is_sound(path) && end && size != *end)
+        throw refused_file(path,
+                           "the trajectory is damaged: it has " + std::to_string(size) +
+                               " bytes, those of HDF5 end at " + std::to_string(*end) +
+                               ", and what follows is no checksum of jostle",
+                           make_again);
     const QuietHdf5 quiet;
     std::optional<Hdf5Failure> failure;
     try {
@@ -118,7 +140,7 @@ void verify_h5md(const std::string& path) {
     throw refused_file(path,
                        "the trajectory is damaged or no H5MD file of jostle: cannot " + failure->operation +
                            " (HDF5: " + failure->reason + ")",
-                       suggestion);
+                       make_again);
 }
 
 }  // namespace jostle

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "jostle/error/input_error.hpp"
+#include "jostle/io/durable_file.hpp"
 #include "jostle/io/rods_file.hpp"
 #include "jostle/io/springs_file.hpp"
 #include "jostle/simulation/assemble.hpp"
@@ -19,6 +20,16 @@ namespace jostle {
 namespace {
 
 constexpr double most_edges_away = 1e6;
+
+/// The file that a key of the scene names, relative to the scene's folder. Errors: InputError if it is not there.
+std::filesystem::path named_file(const char* key, const std::string& name, const std::filesystem::path& scene_path) {
+    const std::filesystem::path file = scene_path.parent_path() / name;  // an absolute path replaces the folder
+    if (file_exists(file.string())) return file;
+    throw InputError({.key = key,
+                      .value = "\"" + name + "\"",
+                      .problem = fmt::format("there is no such file: {}", file.string()),
+                      .suggestion = "Check the name, which counts from the scene's folder"});
+}
 
 /// The keys that a file with the rods' own speeds needs, and does not go with.
 void require_swimming(const Scene& scene, const std::string& file) {
@@ -47,6 +58,13 @@ void require_diameter(const Scene& scene, const std::string& file, double thinne
                       .suggestion = "Set it to the mean of the file's diameters"});
 }
 
+/// Of all rods, from end to end.
+double longest_of(const Rods& rods) {
+    double longest = 0.0;
+    for (std::size_t i = 0; i < rods.size(); ++i) longest = std::max(longest, rods.length[i] + rods.diameter[i]);
+    return longest;
+}
+
 /// Farther away, doubles would no longer tell where in the box a rod is.
 void require_near(const Rods& rods, const Box& box, const std::string& file) {
     const double farthest = most_edges_away * std::max({box.edges.x, box.edges.y, box.edges.z});
@@ -64,20 +82,19 @@ void require_near(const Rods& rods, const Box& box, const std::string& file) {
 
 std::optional<Rods> rods_from_file(const Scene& scene, const std::filesystem::path& scene_path) {
     if (scene.rods.start != StartKind::file) return std::nullopt;
-    const std::filesystem::path file =
-        scene_path.parent_path() / scene.rods.file;  // an absolute path replaces the folder
+    const std::filesystem::path file = named_file("rods.file", scene.rods.file, scene_path);
     Rods rods = read_rods(file.string(), scene.rods.length, scene.rods.diameter);
     if (scene.rods.count != 0 && scene.rods.count != rods.size())
         throw InputError({.key = "rods.count",
                           .value = std::to_string(scene.rods.count),
                           .problem = "the file " + file.string() + " holds " + std::to_string(rods.size()) + " rods",
-                          .suggestion = "Leave rods.count out to take all of the file",
-                          .place = {scene_path.string()}});
+                          .suggestion = "Leave rods.count out to take all of the file"});
     if (!rods.speed.empty()) require_swimming(scene, file.string());
     const auto [thinnest, thickest] = std::minmax_element(rods.diameter.begin(), rods.diameter.end());
     require_diameter(scene, file.string(), *thinnest, *thickest);
     validate_box(scene, total_volume(rods), *thickest);
     validate_growth(scene, *thickest);
+    validate_contact_range(scene, longest_of(rods));
     require_near(rods, box_of(scene, rods), file.string());
     return rods;
 }
@@ -88,7 +105,7 @@ Box box_of(const Scene& scene, const std::optional<Rods>& rods) {
 }
 
 std::string springs_path(const Scene& scene, const std::filesystem::path& scene_path) {
-    return (scene_path.parent_path() / scene.springs.file).string();
+    return scene.springs.file.empty() ? "" : named_file("springs.file", scene.springs.file, scene_path).string();
 }
 
 std::vector<Spring> springs_from_file(const Scene& scene, const std::filesystem::path& scene_path, const Rods& rods) {

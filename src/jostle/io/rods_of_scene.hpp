@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "jostle/error/input_error.hpp"
+#include "jostle/io/scene_reader.hpp"
 #include "jostle/rods/box.hpp"
 #include "jostle/rods/rods.hpp"
 #include "jostle/rods/spring.hpp"
@@ -26,20 +27,21 @@ std::optional<Rods> rods_from_file(const Scene& scene, const std::filesystem::pa
 /// The box of a scene, for these rods or, if there are none, for those that the scene describes.
 Box box_of(const Scene& scene, const std::optional<Rods>& rods);
 
-/// The springs file of a scene, relative to the scene's folder.
+/// The springs file of a scene, relative to the scene's folder; empty if it names none. Errors: InputError if the file
+/// is not there.
 std::string springs_path(const Scene& scene, const std::filesystem::path& scene_path);
 
 /// The springs of a scene between these rods, empty where it names none; images are 0. Errors: InputError, DiskError.
 std::vector<Spring> springs_from_file(const Scene& scene, const std::filesystem::path& scene_path, const Rods& rods);
 
-/// What `call()` returns; an InputError of it without a place gets the scene's name.
+/// What `call()` returns; an InputError of it without a place gets that of its key in the scene.
 template <class Call>
 auto in_scene_file(const std::filesystem::path& scene_path, Call&& call) {
     try {
         return call();
     } catch (const InputError& error) {
         if (!error.parts().place.file.empty()) throw;
-        throw error.with_place({scene_path.string()});
+        throw in_scene_file(scene_path, error);
     }
 }
 

@@ -44,7 +44,11 @@ bool is_empty_folder(const std::string& path) {
 bool folder_exists(const std::string& path) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (status.type() == std::filesystem::file_type::not_found) return false;
+    if (status.type() == std::filesystem::file_type::not_found) {
+        if (std::filesystem::is_symlink(std::filesystem::symlink_status(path, error)))
+            throw refused(path, "is a link to a folder that is not there", "Make that folder, or give another name");
+        return false;
+    }
     if (error) throw DiskError(path, "look at it", error.value());
     if (!std::filesystem::is_directory(status))
         throw refused(path, "is a file, a run needs a folder", "Give another name");
@@ -123,6 +127,15 @@ RunDirectory::RunDirectory(const std::string& path) : path_(without_last_slash(p
 RunDirectory::RunDirectory(RunDirectory&& other) noexcept
     : path_(std::move(other.path_)), lock_(std::exchange(other.lock_, -1)) {}
 
+std::string RunDirectory::path() const {
+    if (still_there(lock_, path_ + "/lock")) return path_;
+    std::error_code unknown;
+    const std::filesystem::path lock = std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(lock_), unknown);
+    if (unknown || !still_there(lock_, lock.string()))
+        throw DiskError(path_, "go on in this folder", "it, or its file lock, was removed while the run went on");
+    return lock.parent_path().string();
+}
+
 RunDirectory::~RunDirectory() {
     // The lock file stays: removing it would let two processes lock two files of the same name.
     if (lock_ >= 0) ::close(lock_);
@@ -134,14 +147,18 @@ bool is_run_directory(const std::string& path) {
     const std::string lock = path + "/lock";
     if (!file_exists(lock)) return false;
     // A lock may end early, or be empty: the process was killed, or the disk was full, before it had written its
-    // number.
-    const std::string content = read_file(lock);
+    // number. After a power cut there may be zeros in place of what was written.
+    std::string content = read_file(lock);
+    while (content.ends_with('\0')) content.pop_back();
     return content.starts_with(lock_mark) || std::string_view(lock_mark).starts_with(content);
 }
 
+std::string absolute_folder(const std::string& path) {
+    return without_last_slash(std::filesystem::absolute(without_last_slash(path)).lexically_normal().string());
+}
+
 std::string move_aside(const std::string& path) {
-    const std::string folder =
-        without_last_slash(std::filesystem::absolute(without_last_slash(path)).lexically_normal().string());
+    const std::string folder = absolute_folder(path);
     if (!folder_exists(folder) || is_empty_folder(folder)) return "";
     require_run_directory(folder);
     const int lock = locked(folder);

@@ -6,7 +6,8 @@ namespace jostle {
 
 /// The folder of one run, held by this process alone for as long as the object lives.
 ///
-/// The lock is flock(2) on DIR/lock: the system frees it when the process ends, however it ends.
+/// The lock is flock(2) on DIR/lock: the system frees it when the process ends, however it ends. The lock goes with a
+/// folder that is moved, and so does the object: it never names files of whatever has taken the folder's old name.
 class RunDirectory {
 public:
     /// Makes the folder if it is not there, and takes its lock.
@@ -18,10 +19,12 @@ public:
     RunDirectory& operator=(RunDirectory&&) = delete;
     ~RunDirectory();
 
-    /// As given, without a slash at the end.
-    const std::string& path() const { return path_; }
-    /// The path of a file in the folder.
-    std::string file(const std::string& name) const { return path_ + "/" + name; }
+    /// As given, without a slash at the end; once the folder was moved, where it is now. To be asked whenever a file is
+    /// opened by name. Errors: DiskError if the folder, or its lock, was removed.
+    std::string path() const;
+    /// The path of a file in the folder. Errors: as above.
+    std::string file(const std::string& name) const { return path() + "/" + name; }
+    bool was_moved() const { return path() != path_; }
 
 private:
     std::string path_;
@@ -32,6 +35,9 @@ private:
 ///
 /// scene.toml alone is no sign: it may be the user's own folder of scenes.
 bool is_run_directory(const std::string& path);
+
+/// The same folder by a path that does not depend on the current folder, without "." and "..".
+std::string absolute_folder(const std::string& path);
 
 /// For --fresh: renames an existing run folder to PATH.1, or PATH.2 ... if that is taken; nothing is deleted.
 ///

@@ -3,12 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <map>
+#include <utility>
 #include <vector>
 
+#include "jostle/io/durable_file.hpp"
 #include "jostle/io/key_reader.hpp"
 #include "jostle/io/nearest_word.hpp"
 #include "jostle/io/toml_document.hpp"
@@ -112,19 +112,27 @@ void refuse_unused(const TomlDocument& document, const Scene& scene) {
     }
 }
 
-/// `validate`, with the place of the key and its value as the user wrote it.
-void validate_with_place(const TomlDocument& document, const Scene& scene) {
-    try {
-        validate(scene);
-    } catch (const InputError& error) {
-        InputError::Parts parts = error.parts();
-        const std::size_t dot = std::min(parts.key.find('.'), parts.key.size());
-        const std::string table = dot == parts.key.size() ? "" : parts.key.substr(0, dot);
-        const toml::node* node = document.find(table, table.empty() ? parts.key : parts.key.substr(dot + 1));
-        if (node) parts.value = document.written(node->source());
-        parts.place = document.place_of(parts.key);
-        throw InputError(parts);
-    }
+/// Table and name of a full key; a key at the top has the table "".
+std::pair<std::string, std::string> parts_of(const std::string& key) {
+    const std::size_t dot = key.find('.');
+    if (dot == std::string::npos) return {"", key};
+    return {key.substr(0, dot), key.substr(dot + 1)};
+}
+
+/// The error with the place of its key and its value as the user wrote it.
+InputError with_place(const TomlDocument& document, const InputError& error) {
+    InputError::Parts parts = error.parts();
+    const auto [table, name] = parts_of(parts.key);
+    if (const toml::node* node = document.find(table, name)) parts.value = document.written(node->source());
+    parts.place = document.place_of(parts.key);
+    return InputError(parts);
+}
+
+bool is_key(const std::string& key) {
+    const KeysOfTables known = keys_of_tables();
+    const auto [table, name] = parts_of(key);
+    const auto found = known.find(table);
+    return found != known.end() && std::find(found->second.begin(), found->second.end(), name) != found->second.end();
 }
 
 [[noreturn]] void refuse_file(const std::filesystem::path& path, std::string problem, std::string suggestion) {
@@ -146,21 +154,38 @@ std::string suggestion_for_missing(const std::filesystem::path& path) {
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& path) {
-    constexpr std::streamsize largest = 1 << 20;
+    return parse_scene(read_scene_text(path), path.string());
+}
+
+std::string read_scene_text(const std::filesystem::path& path) {
+    constexpr std::size_t largest = 1 << 20;
     std::error_code error;
     if (std::filesystem::is_directory(path, error))
         refuse_file(path, "is a directory", "Give the scene file, as " + (path / "scene.toml").string());
     if (!std::filesystem::exists(path, error)) refuse_file(path, "there is no such file", suggestion_for_missing(path));
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    if (!file) refuse_file(path, fmt::format("cannot be opened: {}", std::strerror(errno)), "Check who may read it");
-    std::string text(static_cast<std::size_t>(largest) + 1, '\0');
-    file.read(text.data(), largest + 1);
-    if (file.bad()) refuse_file(path, fmt::format("cannot be read: {}", std::strerror(errno)), "Check the disk");
-    if (file.gcount() > largest)
+    std::string text, block;
+    try {
+        ReadFile file(path.string());
+        for (file.read_up_to(largest, block); !block.empty() && text.size() <= largest; file.read_up_to(4096, block))
+            text += block;
+    } catch (const DiskError& failure) {
+        refuse_file(path, fmt::format("cannot be read: {}", std::strerror(failure.error_number())),
+                    "Check who may read it, and the disk");
+    } catch (const InputError& refusal) {
+        refuse_file(path, refusal.parts().problem, refusal.parts().suggestion);
+    }
+    if (text.size() > largest)
         refuse_file(path, "is larger than 1 MiB, too large for a scene", "Give the scene, not an output of a run");
-    text.resize(static_cast<std::size_t>(file.gcount()));
-    return parse_scene(text, path.string());
+    return text;
+}
+
+InputError in_scene_file(const std::filesystem::path& path, const InputError& error) {
+    if (!is_key(error.parts().key)) return error.with_place({path.string()});
+    try {
+        return with_place(TomlDocument(read_scene_text(path), path.string()), error);
+    } catch (const InputError&) {  // what was read is not there any more, as of a pipe
+        return error.with_place({path.string()});
+    }
 }
 
 Scene parse_scene(std::string_view text, std::string file_name) {
@@ -177,7 +202,11 @@ Scene parse_scene(std::string_view text, std::string file_name) {
     read_keys(document, scene);
     refuse_missing(document, scene);
     refuse_unused(document, scene);
-    validate_with_place(document, scene);
+    try {
+        validate(scene);
+    } catch (const InputError& error) {
+        throw with_place(document, error);
+    }
     // A growing population has no equilibrium to wait for.
     if (scene.growth.rate > 0.0 && !scene.time.equilibration) scene.time.equilibration = 0.0;
     return scene;

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "jostle/error/input_error.hpp"
 #include "jostle/simulation/scene.hpp"
 
 namespace jostle {
@@ -13,6 +14,13 @@ namespace jostle {
 /// Throws InputError with the place, the value as written, what is allowed and a suggestion, for a file that is
 /// missing, unreadable, empty, cut short or not TOML, and for everything that `parse_scene` refuses.
 Scene read_scene(const std::filesystem::path& path);
+
+/// The text of a scene file; a pipe will do. Errors: InputError if it is missing, unreadable or too large for a scene.
+std::string read_scene_text(const std::filesystem::path& path);
+
+/// The same error with the line and column of its key in the scene file, and the value as it is written there, as far
+/// as they can be told: the name of the file alone if the key is none of a scene or the file cannot be read again.
+InputError in_scene_file(const std::filesystem::path& path, const InputError& error);
 
 /// Reads and validates a scene in TOML; `file_name` is for messages.
 ///

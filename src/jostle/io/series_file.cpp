@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -180,16 +179,16 @@ SeriesTable read_series(const std::string& path) {
     return table;
 }
 
-void write_series_description(const std::string& path, const std::vector<SeriesColumn>& columns) {
+std::string series_description(const std::string& name, const std::vector<SeriesColumn>& columns) {
     nlohmann::ordered_json description;
-    description["file"] = std::filesystem::path(path).filename().replace_extension(".csv").string();
+    description["file"] = name + ".csv";
     for (const SeriesColumn& column : columns)
         description["columns"].push_back({{"name", column.name},
                                           {"unit", column.unit},
                                           {"symbol", column.symbol},
                                           {"definition", column.definition},
                                           {"sign", column.sign}});
-    replace_file(path, description.dump(2) + "\n");
+    return description.dump(2) + "\n";
 }
 
 }  // namespace jostle

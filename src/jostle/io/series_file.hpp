@@ -78,7 +78,8 @@ struct SeriesTable {
 /// Errors: InputError with the line and column of a number that is none; DiskError.
 SeriesTable read_series(const std::string& path);
 
-/// Writes series.json: for every column its unit, symbol, definition and sign convention. Errors: DiskError.
-void write_series_description(const std::string& path, const std::vector<SeriesColumn>& columns);
+/// The text of series.json, or of NAME.json beside another table NAME.csv: for every column its unit, symbol,
+/// definition and sign convention.
+std::string series_description(const std::string& name, const std::vector<SeriesColumn>& columns);
 
 }  // namespace jostle

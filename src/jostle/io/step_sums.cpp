@@ -68,12 +68,12 @@ std::vector<double> StepSums::to_numbers() const {
     return numbers;
 }
 
-StepSums StepSums::from_numbers(const std::vector<double>& numbers) {
+StepSums StepSums::from_numbers(const std::vector<double>& numbers, const Scene& scene) {
     constexpr std::size_t sums_count = 8 + 4 * 9;
     const auto require = [](bool sound) {
         if (!sound)
             throw InputError({.key = "checkpoint",
-                              .problem = "it holds sums of another version of jostle",
+                              .problem = "it holds other sums than a run of this scene by this version of jostle",
                               .suggestion = "Start anew with --fresh"});
     };
     require(numbers.size() >= sums_count);
@@ -94,14 +94,15 @@ StepSums StepSums::from_numbers(const std::vector<double>& numbers) {
     }
     std::span<const double> rest = std::span(numbers).subspan(sums_count);
     const auto take = [&] {
-        require(!rest.empty() && rest[0] < static_cast<double>(rest.size()));
+        require(!rest.empty() && rest[0] >= 0.0 && rest[0] < static_cast<double>(rest.size()));
         const std::span<const double> taken = rest.subspan(1, static_cast<std::size_t>(rest[0]));
         rest = rest.subspan(1 + taken.size());
         return taken;
     };
     if (const auto positions = take(); !positions.empty()) sums.active_stress = ActiveStress::from_numbers(positions);
     if (const auto field = take(); !field.empty()) sums.field = StressField::from_numbers(field);
-    require(rest.empty());
+    require(rest.empty() && sums.active_stress.has_value() == (scene.motion.self_propulsion != 0.0) &&
+            sums.field.has_value() == (scene.output.field_every > 0));
     return sums;
 }
 

@@ -38,7 +38,8 @@ struct StepSums {
     void start_row();
 
     std::vector<double> to_numbers() const;
-    static StepSums from_numbers(const std::vector<double>& numbers);
+    /// Of a run of `scene`. Errors: InputError if they are not those that such a run has.
+    static StepSums from_numbers(const std::vector<double>& numbers, const Scene& scene);
 
 private:
     void add(const StepReport& report);

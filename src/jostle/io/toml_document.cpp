@@ -77,13 +77,16 @@ constexpr Wording wordings[] = {
 
 TomlDocument::TomlDocument(std::string_view text, std::string file_name) : text_(text), file_(std::move(file_name)) {
     if (text_.starts_with("\xef\xbb\xbf")) text_.erase(0, 3);  // byte order mark
-    if (text_.find('\0') != std::string::npos)
-        throw InputError({"scene",
-                          "",
-                          "is not a text file",
-                          "a TOML file",
-                          "Give the scene, not an output of a run",
-                          {file_, 0, 0}});
+    if (const std::size_t zero = text_.find('\0'); zero != std::string::npos)
+        throw InputError(
+            {"scene",
+             "",
+             "is not a text file",
+             "a TOML file",
+             "Give the scene, not an output of a run",
+             {file_,
+              static_cast<int>(std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(zero), '\n')) + 1,
+              0}});
     for (std::size_t begin = 0, number = 1; begin < text_.size(); ++number) {
         const std::size_t end = std::min(text_.find('\n', begin), text_.size());
         if (end - begin > longest_line)

@@ -2,8 +2,6 @@
 
 #include <string_view>
 
-#include "jostle/io/checksum.hpp"
-
 namespace jostle {
 namespace {
 
@@ -68,23 +66,13 @@ bool sound(std::string_view bytes) {
     return ByteReader(bytes.substr(size)).take<std::uint64_t>() == checksum(bytes.substr(0, size));
 }
 
-}  // namespace
+/// What the frames up to `bytes`, once found to be those of the checkpoint, go on with.
+struct CheckedFrames {
+    Content content;
+    RunningChecksum checksum;
+};
 
-TrajectoryJournal TrajectoryJournal::create(const std::string& path, Content content) {
-    TrajectoryJournal journal{AppendFile(path), content};
-    journal.file_.truncate_to(0);
-    journal.file_.write_all(file_header(content));
-    return journal;
-}
-
-TrajectoryJournal TrajectoryJournal::resume(const std::string& path, std::uint64_t bytes) {
-    require_frames(path, bytes);
-    TrajectoryJournal journal{AppendFile(path), TrajectoryReader(path).content()};
-    journal.file_.truncate_to(bytes);
-    return journal;
-}
-
-void TrajectoryJournal::require_frames(const std::string& path, std::uint64_t bytes) {
+CheckedFrames checked_frames(const std::string& path, std::uint64_t bytes, std::uint64_t hash) {
     TrajectoryReader reader(path);
     TrajectoryFrame frame;
     while (reader.offset() < bytes && reader.next(frame)) {
@@ -94,6 +82,39 @@ void TrajectoryJournal::require_frames(const std::string& path, std::uint64_t by
                            "the trajectory does not fit the checkpoint: its whole frames end at byte " +
                                std::to_string(reader.offset()) + ", the checkpoint needs " + std::to_string(bytes),
                            put_back);
+    CheckedFrames frames{reader.content(), reader.take_checksum()};
+    if (frames.checksum.value() != hash)
+        throw refused_file(path,
+                           "the trajectory is of another run: its first " + std::to_string(bytes) +
+                               " bytes are sound, and not those that the checkpoint stands for",
+                           put_back);
+    return frames;
+}
+
+}  // namespace
+
+TrajectoryJournal TrajectoryJournal::create(const std::string& path, Content content) {
+    TrajectoryJournal journal{AppendFile(path), content};
+    journal.file_.truncate_to(0);
+    journal.write(file_header(content));
+    return journal;
+}
+
+TrajectoryJournal TrajectoryJournal::resume(const std::string& path, std::uint64_t bytes, std::uint64_t hash) {
+    CheckedFrames frames = checked_frames(path, bytes, hash);
+    TrajectoryJournal journal{AppendFile(path), frames.content};
+    journal.checksum_ = std::move(frames.checksum);
+    journal.file_.truncate_to(bytes);
+    return journal;
+}
+
+void TrajectoryJournal::require_frames(const std::string& path, std::uint64_t bytes, std::uint64_t hash) {
+    checked_frames(path, bytes, hash);
+}
+
+void TrajectoryJournal::write(const std::string& bytes) {
+    file_.write_all(bytes);
+    checksum_.add(bytes);
 }
 
 void TrajectoryJournal::append(std::uint64_t step, double time, const Box& box, const Rods& rods,
@@ -120,14 +141,16 @@ void TrajectoryJournal::append(std::uint64_t step, double time, const Box& box, 
     put_single(frame_, rods.diameter);
     frame_.put_elements(stress);
     frame_.put(checksum(frame_.bytes()));
-    file_.write_all(frame_.bytes());
+    write(frame_.bytes());
 }
 
 TrajectoryReader::TrajectoryReader(const std::string& path) : file_(path), offset_(file_header_bytes) {
     file_.read_up_to(file_header_bytes, buffer_);
     for (const Content content : {Content::rods, Content::rods_and_stress}) {
         content_ = content;
-        if (buffer_ == file_header(content)) return;
+        if (buffer_ != file_header(content)) continue;
+        checksum_.add(buffer_);
+        return;
     }
     if (file_header(Content::rods).starts_with(buffer_))
         throw refused_file(path,
@@ -168,6 +191,7 @@ bool TrajectoryReader::next(TrajectoryFrame& frame) {
     ByteReader rods(buffer_);
     take_rods(rods, count, content_, frame);
     offset_ += frame_header_bytes + rest_bytes;
+    checksum_.add(whole);
     ++frames_;
     last_step_ = frame.step;
     return true;

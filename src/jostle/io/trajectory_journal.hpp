@@ -3,9 +3,11 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "jostle/io/byte_buffer.hpp"
+#include "jostle/io/checksum.hpp"
 #include "jostle/io/durable_file.hpp"
 #include "jostle/math/mat3.hpp"
 #include "jostle/rods/box.hpp"
@@ -28,14 +30,15 @@ public:
     /// A new journal without frames; what `path` held is gone. Errors: DiskError.
     static TrajectoryJournal create(const std::string& path, Content content = Content::rods);
 
-    /// Goes on after the first `bytes` bytes, which must be whole, sound frames; what follows them is cut off.
+    /// Goes on after the first `bytes` bytes, which must be whole, sound frames and have the checksum `hash`; what
+    /// follows them is cut off.
     ///
-    /// All checks come before the cut. Errors: InputError if the file is missing, foreign, shorter or damaged;
-    /// DiskError.
-    static TrajectoryJournal resume(const std::string& path, std::uint64_t bytes);
+    /// All checks come before the cut. Errors: InputError if the file is missing, foreign, shorter, damaged or of
+    /// another run; DiskError.
+    static TrajectoryJournal resume(const std::string& path, std::uint64_t bytes, std::uint64_t hash);
 
     /// The checks of `resume` alone, for looking at several files before one of them is cut. Errors: as there.
-    static void require_frames(const std::string& path, std::uint64_t bytes);
+    static void require_frames(const std::string& path, std::uint64_t bytes, std::uint64_t hash);
 
     /// One frame, by one write. `stress` (N): of every rod, in a journal with stress; else empty. Errors: InputError if
     /// its size is another; DiskError, after which the journal ends with the frame before.
@@ -46,12 +49,15 @@ public:
     void sync() { file_.sync(); }
 
     std::uint64_t bytes() const { return file_.size(); }
+    std::uint64_t hash() const { return checksum_.value(); }  ///< checksum of these bytes
 
 private:
     TrajectoryJournal(AppendFile file, Content content) : file_(std::move(file)), content_(content) {}
+    void write(const std::string& bytes);
 
     AppendFile file_;
     Content content_;
+    RunningChecksum checksum_;
     ByteWriter frame_;  // kept for its memory
 };
 
@@ -83,12 +89,15 @@ public:
 
     /// Where the last frame that was read ends, in bytes from the beginning of the file.
     std::uint64_t offset() const { return offset_; }
+    /// Of the bytes up to there. Taking it ends the reading.
+    RunningChecksum take_checksum() { return std::move(checksum_); }
 
     TrajectoryJournal::Content content() const { return content_; }
 
 private:
     ReadFile file_;
     TrajectoryJournal::Content content_ = TrajectoryJournal::Content::rods;
+    RunningChecksum checksum_;
     std::uint64_t offset_ = 0;
     std::uint64_t frames_ = 0;
     std::uint64_t last_step_ = 0;

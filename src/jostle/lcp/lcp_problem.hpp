@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -36,6 +37,10 @@ struct LcpSettings {
     double tolerance = 1e-5;               ///< a length for LcpResidual::length; in the units of the problem
     std::uint64_t max_iterations = 10000;  ///< applications of A
     BarzilaiBorwein step_rule = BarzilaiBorwein::bb1;
+    /// Asked again and again while a solution is sought; once it says true the search ends. Empty: it never does.
+    std::function<bool()> interrupted = {};
+
+    bool is_interrupted() const { return interrupted && interrupted(); }
 };
 
 enum class LcpStatus {
@@ -43,6 +48,7 @@ enum class LcpStatus {
     iteration_limit,  ///< the residual is still above the tolerance
     infeasible,       ///< no velocity of the rods opens all contacts: they are packed too densely
     not_finite,       ///< the problem or an iterate holds NaN or infinity
+    interrupted,      ///< LcpSettings::interrupted said so before the problem was solved
 };
 
 struct LcpResult {

@@ -29,12 +29,13 @@ bool LcpSearch::unsolved() const {
 }
 
 std::uint64_t LcpSearch::applications_left() const {
-    return settings_.max_iterations > applications_ ? settings_.max_iterations - applications_ : 0;
+    return settings_.max_iterations > applications_ && !interrupted_ ? settings_.max_iterations - applications_ : 0;
 }
 
 void LcpSearch::apply(std::span<const double> x, std::span<double> image) {
     problem_.matrix.apply(x, image);
     ++applications_;
+    interrupted_ = settings_.is_interrupted();
 }
 
 void LcpSearch::apply_to_next() {
@@ -74,6 +75,7 @@ LcpResult LcpSearch::result() {
     result.iterations = applications_;
     take(iterates_[current_], result);
     result.status = lcp_status(problem_, settings_, result);
+    if (interrupted_ && result.status != LcpStatus::converged) result.status = LcpStatus::interrupted;
     if (result.status != LcpStatus::converged && best_ != current_ && std::isfinite(iterates_[best_].residual))
         take(iterates_[best_], result);
     return result;

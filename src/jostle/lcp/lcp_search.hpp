@@ -28,7 +28,7 @@ public:
     /// Whether the current iterate is finite and above the tolerance, and A may be applied once more.
     bool unsolved() const;
     std::uint64_t applications() const { return applications_; }  ///< of A, so far
-    std::uint64_t applications_left() const;
+    std::uint64_t applications_left() const;                      ///< none once the search is interrupted
 
     /// image = A x, counted.
     void apply(std::span<const double> x, std::span<double> image);
@@ -59,6 +59,7 @@ private:
     std::array<LcpIterate, 3> iterates_;
     std::size_t current_ = 0, next_ = 1, best_ = 0;
     std::uint64_t applications_ = 0;
+    bool interrupted_ = false;
     std::uint64_t since_best_ = 0;  ///< iterates
 };
 

@@ -25,6 +25,8 @@ constexpr double finest_in_float = 1e-5;
 constexpr int patience_with_float = 3;
 /// After this sweep, and three times as many, and so on, missed contacts are looked for before the sweeps have settled.
 constexpr std::uint64_t early_search = 6;
+/// Every so many sweeps it is asked whether to go on.
+constexpr std::uint64_t sweeps_between_questions = 4;
 
 /// The sweeps of a solution, with what is stored in Real. Ends when solved, at the limit of sweeps, or, if
 /// `most_failures` is above 0, when so many verifications have found it too large although the sweeps stood still.
@@ -39,7 +41,7 @@ public:
         sweeper_.refresh(solution_);
     }
 
-    /// Whether nothing is left to be done: solved, and no contact missed; or lost.
+    /// Whether nothing is left to be done: solved, and no contact missed; or lost, or interrupted.
     bool solve(SolverOutcome& outcome, int most_failures) {
         const bool warm = !problem_.start.empty();
         const std::uint64_t period = warm ? full_sweep_every_if_warm : full_sweep_every;
@@ -51,6 +53,10 @@ public:
             const double change = problem_.time_step * sweeper_.sweep(omega, all ? SweepOver::all : SweepOver::awake);
             ++outcome.iterations;
             look_at_all = false;
+            if (outcome.iterations % sweeps_between_questions == 0 && settings_.is_interrupted()) {
+                outcome.status = LcpStatus::interrupted;
+                return true;
+            }
             if (outcome.iterations >= next_search_) {
                 next_search_ = 3 * outcome.iterations;
                 sweeper_.read_velocities(solution_.velocities);

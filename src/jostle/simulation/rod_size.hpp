@@ -20,7 +20,10 @@ inline constexpr double farthest_deviation = 3.0;
 inline bool rods_are_alike(const Scene& scene) {
     return scene.rods.length_deviation == 0.0 && scene.rods.diameter_deviation == 0.0;
 }
-/// Of a scene without a file: no rod is thicker.
+/// Of a scene without a file: no rod starts longer, none is thicker.
+inline double largest_length(const Scene& scene) {
+    return scene.rods.length + farthest_deviation * scene.rods.length_deviation;
+}
 inline double largest_diameter(const Scene& scene) {
     return scene.rods.diameter + farthest_deviation * scene.rods.diameter_deviation;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -55,6 +56,9 @@ public:
 
     /// Adds a motion, felt from the next step on, after those that are there.
     void add(std::unique_ptr<Motion> motion) { motions_.push_back(std::move(motion)); }
+
+    /// A step ends unmade, with LcpStatus::interrupted, where `asked` says true while its contact forces are sought.
+    void interrupt_when(std::function<bool()> asked) { settings_.lcp.interrupted = std::move(asked); }
 
     /// Makes one step (step.cpp). Where contacts cannot be resolved the report says so, and rods and clock stay as they
     /// were.

@@ -16,6 +16,8 @@ std::string description(LcpStatus status) {
             return "the contact problem has no solution: the rods are packed too densely to be moved apart";
         case LcpStatus::not_finite:
             return "the contact problem holds numbers that are not finite";
+        case LcpStatus::interrupted:
+            return "it was interrupted before the contact problem was solved";
     }
     return "";
 }

@@ -176,6 +176,7 @@ void validate(const Scene& scene) {
         check_deviations(scene);
         check_packing(scene);
         validate_box(scene, rods_volume(scene), largest_diameter(scene));
+        validate_contact_range(scene, largest_length(scene) + largest_diameter(scene));
     }
     check_motion(scene);
     check_mobility(scene);
@@ -202,6 +203,16 @@ void validate_box(const Scene& scene, double rods_volume, double largest_diamete
         refuse(key, value,
                fmt::format("leaves the rods no room: their volume is {} times that of the box", rounded(fraction)),
                "a volume fraction less than 1", "Enlarge the box or use fewer rods");
+}
+
+void validate_contact_range(const Scene& scene, double longest) {
+    const bool grows = scene.growth.rate > 0.0;
+    const double cell = grows ? scene.growth.division_length + largest_diameter(scene) : 0.0;
+    const double most = std::max(longest, cell);
+    if (!scene.contact.range || *scene.contact.range <= most) return;
+    refuse("contact.range", text(*scene.contact.range),
+           fmt::format("reaches beyond what a rod can touch: the longest measures {} from end to end", rounded(most)),
+           fmt::format("at most {}", rounded(most)), "Use \"auto\"");
 }
 
 void validate_growth(const Scene& scene, double largest_diameter) {

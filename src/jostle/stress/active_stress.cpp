@@ -123,7 +123,10 @@ std::vector<double> ActiveStress::to_numbers() const {
 
 ActiveStress ActiveStress::from_numbers(std::span<const double> numbers) {
     constexpr std::size_t first = 2, each = 7;
-    if (numbers.size() < first || (numbers.size() - first) % each != 0)
+    const auto is_count = [](double value) { return value >= 0.0 && value <= 1e16; };  // false for nan
+    bool whole = numbers.size() >= first && (numbers.size() - first) % each == 0;
+    for (std::size_t k = 0; whole && k < numbers.size(); k += k < first ? 1 : each) whole = is_count(numbers[k]);
+    if (!whole)
         throw InputError({.key = "checkpoint",
                           .problem = "the positions that the active stress counts from are not whole",
                           .suggestion = "Start anew with --fresh"});

@@ -168,7 +168,7 @@ StressField StressField::from_numbers(std::span<const double> numbers) {
     double total = 1.0;
     for (int k = 0; k < 3; ++k) {
         const double count = numbers[6 + static_cast<std::size_t>(k)];
-        require(count >= 1.0 && (total *= count) <= most_cells);
+        require(count >= 1.0 && count == std::floor(count) && (total *= count) <= most_cells);
         field.cells_[static_cast<std::size_t>(k)] = static_cast<std::size_t>(count);
         field.edges_[k] = box.edges[k] / count;
     }

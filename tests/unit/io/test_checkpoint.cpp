@@ -3,7 +3,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
+#include <functional>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "full_disk.hpp"
 #include "jostle/error/input_error.hpp"
@@ -23,18 +27,19 @@ Checkpoint two_rods(std::uint64_t step = 7) {
     checkpoint.scene = "seed = 1\n[rods]\ncount = 2\n";
     checkpoint.step = step;
     checkpoint.time = 0.1 * static_cast<double>(step);
-    checkpoint.box = {{1.0 / 3.0, 2.0, 5e-324}, {true, false, true}};
-    checkpoint.rods.push_back(3, {0.1, -0.0, 1e300}, {0, 0, 1}, 5.0, 1.0);
-    checkpoint.rods.push_back(9, {1.0 / 7.0, 2, 3}, {0.6, 0.8, 0}, 0.0, 1.1);
+    checkpoint.box = {{1.0 / 3.0, 2.0, 1e30}, {true, false, true}};
+    checkpoint.rods.push_back(1, {0.1, -0.0, 1e29}, {0, 0, 1}, 5.0, 1.0);
+    checkpoint.rods.push_back(0, {1.0 / 7.0, 2, 3}, {0.6, 0.8, 0}, 0.0, 1.1);
     checkpoint.rods.image[1] = {-1, 2, 2147483647};
     checkpoint.rods.speed = {0.5, -2.0};
-    checkpoint.springs = {{3, 9, 2.5, -0.0, 1.0 / 3.0, 1e-300, {-1, 0, 7}}, {9, 3, 0.0, 0.1, 0.0, 5.0, {}}};
+    checkpoint.springs = {{1, 0, 2.5, -0.0, 1.0 / 3.0, 1e-300, {-1, 0, 7}}, {0, 1, 0.0, 0.1, 0.0, 5.0, {}}};
     checkpoint.last_forces = {{0, 1, ContactFeature::end_of_j, true, 1.0 / 3.0},
                               {1, 1, ContactFeature::nearest, false, 1e-300}};
     checkpoint.accumulators = {1.5, -2.25, 1e-310};
     checkpoint.series_bytes = 321;
     checkpoint.series_hash = 0xfedcba9876543210u;
     checkpoint.trajectory_bytes = 12345;
+    checkpoint.trajectory_hash = 0xabcdef0123456789u;
     checkpoint.contacts_bytes = 1ull << 40;
     checkpoint.contacts_hash = 77;
     checkpoint.field_bytes = 678;
@@ -51,9 +56,10 @@ bool same(const Checkpoint& a, const Checkpoint& b) {
            a.rods.diameter == b.rods.diameter && a.rods.id == b.rods.id && a.rods.image == b.rods.image &&
            a.rods.speed == b.rods.speed && a.springs == b.springs && a.last_forces == b.last_forces &&
            a.accumulators == b.accumulators && a.series_bytes == b.series_bytes && a.series_hash == b.series_hash &&
-           a.trajectory_bytes == b.trajectory_bytes && a.contacts_bytes == b.contacts_bytes &&
-           a.contacts_hash == b.contacts_hash && a.field_bytes == b.field_bytes && a.field_hash == b.field_hash &&
-           a.lineage_bytes == b.lineage_bytes && a.lineage_hash == b.lineage_hash;
+           a.trajectory_bytes == b.trajectory_bytes && a.trajectory_hash == b.trajectory_hash &&
+           a.contacts_bytes == b.contacts_bytes && a.contacts_hash == b.contacts_hash &&
+           a.field_bytes == b.field_bytes && a.field_hash == b.field_hash && a.lineage_bytes == b.lineage_bytes &&
+           a.lineage_hash == b.lineage_hash;
 }
 
 }  // namespace
@@ -210,6 +216,62 @@ TEST_CASE("kill -9 at random moments never loses a checkpoint that was written")
     }
     MESSAGE("checkpoints written: " << step);
     CHECK(step > 0);
+}
+
+TEST_CASE("what no run has written is refused, though the checksum is right") {
+    const double nan = std::nan("");
+    const std::vector<std::pair<const char*, std::function<void(Checkpoint&)>>> forgeries = {
+        {"time = nan", [&](Checkpoint& c) { c.time = nan; }},
+        {"time = -1", [&](Checkpoint& c) { c.time = -1.0; }},
+        {"step = ", [&](Checkpoint& c) { c.step = ~std::uint64_t{0}; }},
+        {"edge of the box = nan", [&](Checkpoint& c) { c.box.edges.x = nan; }},
+        {"edge of the box = 1e+300", [&](Checkpoint& c) { c.box.edges.y = 1e300; }},
+        {"edge of the box = 0", [&](Checkpoint& c) { c.box.edges.z = 0.0; }},
+        {"centre in row 1 = nan", [&](Checkpoint& c) { c.rods.centre[1].y = nan; }},
+        {"centre in row 0 = 0.5", [&](Checkpoint& c) { c.rods.centre[0].x = 0.5; }},
+        {"centre in row 1 = -1", [&](Checkpoint& c) { c.rods.centre[1].x = -1.0; }},
+        {"centre in row 1 = 1e+300", [&](Checkpoint& c) { c.rods.centre[1].y = 1e300; }},
+        {"|axis|^2 in row 0 = 0", [&](Checkpoint& c) { c.rods.axis[0] = {}; }},
+        {"|axis|^2 in row 1 = 4",
+         [&](Checkpoint& c) {
+             c.rods.axis[1] = {0, 2, 0};
+         }},
+        {"length in row 0 = -5", [&](Checkpoint& c) { c.rods.length[0] = -5.0; }},
+        {"length in row 1 = inf", [&](Checkpoint& c) { c.rods.length[1] = INFINITY; }},
+        {"diameter in row 1 = 0", [&](Checkpoint& c) { c.rods.diameter[1] = 0.0; }},
+        {"speed in row 0 = nan", [&](Checkpoint& c) { c.rods.speed[0] = nan; }},
+        {"an id of two rods = 1",
+         [&](Checkpoint& c) {
+             c.rods.id = {1, 1};
+         }},
+        {"id of a rod = 2",
+         [&](Checkpoint& c) {
+             c.rods.id = {0, 2};
+         }},
+        {"growth in row 1 = nan",
+         [&](Checkpoint& c) {
+             c.rods.cycle = {{1, 2, 0, 0, 1}, {1, nan, 0, 0, 1}};
+         }},
+        {"rod of a spring = 2", [&](Checkpoint& c) { c.springs[1].rod_2 = 2; }},
+        {"stiffness of a spring = -1", [&](Checkpoint& c) { c.springs[0].stiffness = -1.0; }},
+        {"contact force = nan", [&](Checkpoint& c) { c.last_forces[1].gamma = nan; }},
+    };
+    const TemporaryFolder folder;
+    for (const auto& [problem, forge] : forgeries) {
+        Checkpoint checkpoint = two_rods();
+        CHECK(impossible_content(checkpoint) == "");
+        forge(checkpoint);
+        CHECK(contains(impossible_content(checkpoint), problem));
+        write_checkpoint(folder.path(), checkpoint);
+        const std::string message = message_of<InputError>([&] { read_checkpoint(folder.file("checkpoint")); });
+        CHECK(contains(message, std::string("the checkpoint holds what no run has written: ") + problem));
+    }
+    Checkpoint cells = two_rods();
+    cells.rods.cycle.resize(2);
+    cells.rods.id = {1ull << 52, 5};
+    CHECK(impossible_content(cells) == "");  // where cells divide, ids have gaps
+    cells.rods.id[0] = 1ull << 53;
+    CHECK(contains(impossible_content(cells), "id of a rod"));
 }
 
 TEST_CASE("a full disk leaves the last checkpoint in place") {

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "jostle/error/input_error.hpp"
+#include "jostle/io/durable_file.hpp"
 #include "jostle/io/run_directory.hpp"
 #include "temporary_folder.hpp"
 
@@ -58,6 +59,39 @@ TEST_CASE("the lock goes with the object, also when it is moved") {
         CHECK_THROWS_AS(RunDirectory{path}, InputError);
     }
     CHECK_NOTHROW(RunDirectory{path});
+}
+
+TEST_CASE("a folder that is moved is followed, and what takes its name is left alone") {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("run"), moved = folder.file("moved");
+    const RunDirectory run(path);
+    CHECK_FALSE(run.was_moved());
+    fs::rename(path, moved);
+    CHECK(run.was_moved());
+    CHECK(run.path() == moved);
+    {
+        const RunDirectory other(path);
+        CHECK(run.file("checkpoint") == moved + "/checkpoint");
+        CHECK(other.file("checkpoint") == path + "/checkpoint");
+    }
+    fs::rename(moved, folder.file("again"));
+    CHECK(run.path() == folder.file("again"));
+    fs::remove_all(folder.file("again"));
+    CHECK(contains(message_of<DiskError>([&] { run.file("checkpoint"); }), "was removed while the run went on"));
+}
+
+TEST_CASE("a lock that a power cut has left short or full of zeros marks a run all the same") {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("run");
+    fs::create_directory(path);
+    const std::string mark = "jostle runs here as process 12\n";
+    for (const std::string& content :
+         {std::string(), std::string(31, '\0'), mark.substr(0, 9), mark.substr(0, 9) + std::string(22, '\0'), mark}) {
+        put_content(path + "/lock", content);
+        CHECK(is_run_directory(path));
+    }
+    put_content(path + "/lock", std::string("\0jostle", 7));
+    CHECK_FALSE(is_run_directory(path));
 }
 
 TEST_CASE("folders and files that no run made are refused and left alone") {

@@ -84,7 +84,7 @@ private:
             return;
         }
         scene.contact.brownian_correction = chance();
-        if (chance()) scene.contact.range = number(1e-9, 1e9);
+        if (chance()) scene.contact.range = number(1e-9, 1.0) * scene.rods.diameter;
         scene.solver = {chance() ? SolverMethod::automatic : SolverMethod::bbpgd,
                         static_cast<WarmStarts>(random_() % 3),
                         static_cast<StepRule>(random_() % 3),

@@ -166,7 +166,7 @@ TEST_CASE("what is no number is told with its place") {
 
 TEST_CASE("series.json tells the unit and the sign of every column") {
     const TemporaryFolder folder;
-    write_series_description(folder.file("series.json"), three_columns());
+    put_content(folder.file("series.json"), series_description("series", three_columns()));
     const auto description = nlohmann::json::parse(content_of(folder.file("series.json")));
     REQUIRE(description["columns"].size() == 3);
     CHECK(description["columns"][2]["name"] == "pressure");

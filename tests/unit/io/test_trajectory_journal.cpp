@@ -2,6 +2,7 @@
 
 #include "full_disk.hpp"
 #include "jostle/error/input_error.hpp"
+#include "jostle/io/checksum.hpp"
 #include "jostle/io/durable_file.hpp"
 #include "jostle/io/trajectory_journal.hpp"
 #include "some_rods.hpp"
@@ -107,13 +108,13 @@ TEST_CASE("resumed at a checkpoint the journal ends as if it had never been stop
     const std::string good = content_of(path);
     put_content(path, good + good.substr(ends[0], 100));  // a kill within a fourth frame
     {
-        TrajectoryJournal journal = TrajectoryJournal::resume(path, ends[2]);
+        TrajectoryJournal journal = TrajectoryJournal::resume(path, ends[2], checksum(good.substr(0, ends[2])));
         CHECK(journal.bytes() == ends[2]);
         CHECK(content_of(path) == good.substr(0, ends[2]));
         journal.append(30, 0.1 * 30, Box{{4, 5, 36.5}, {true, false, true}}, some_rods(3, 30));
     }
     CHECK(content_of(path) == good);
-    TrajectoryJournal::resume(path, ends[0]);
+    TrajectoryJournal::resume(path, ends[0], checksum(good.substr(0, ends[0])));
     CHECK(frames_of(path) == 0);
 }
 
@@ -124,9 +125,10 @@ TEST_CASE("a journal that does not fit the checkpoint is refused and left alone"
     const std::string good = content_of(path);
     const auto refusal = [&](std::uint64_t bytes) {
         const std::string before = content_of(path);
-        const std::string message = message_of<InputError>([&] { TrajectoryJournal::resume(path, bytes); });
+        const std::uint64_t hash = checksum(good.substr(0, bytes));
+        const std::string message = message_of<InputError>([&] { TrajectoryJournal::resume(path, bytes, hash); });
         CHECK(content_of(path) == before);
-        CHECK(message == message_of<InputError>([&] { TrajectoryJournal::require_frames(path, bytes); }));
+        CHECK(message == message_of<InputError>([&] { TrajectoryJournal::require_frames(path, bytes, hash); }));
         return message;
     };
     CHECK(contains(refusal(ends[3] + 1), "the checkpoint needs"));
@@ -136,8 +138,15 @@ TEST_CASE("a journal that does not fit the checkpoint is refused and left alone"
     put_content(path, good);
     put_byte(path, ends[0] + 80, '~');
     CHECK(contains(refusal(ends[3]), "damaged: frame 1, at byte " + std::to_string(ends[0])));
+    {
+        TrajectoryJournal other = TrajectoryJournal::create(path);
+        for (const auto& [step, count] : {std::pair{10u, 2u}, {20u, 0u}, {30u, 3u}})
+            other.append(step, 0.1 * step, Box{}, some_rods(count, step));
+    }
+    CHECK(content_of(path).size() == ends[3]);
+    CHECK(contains(refusal(ends[3]), "is of another run"));
     std::filesystem::remove(path);
-    CHECK(contains(message_of<InputError>([&] { TrajectoryJournal::resume(path, ends[3]); }), "no such file"));
+    CHECK(contains(message_of<InputError>([&] { TrajectoryJournal::resume(path, ends[3], 0); }), "no such file"));
     CHECK_FALSE(file_exists(path));
 }
 
@@ -194,7 +203,7 @@ TEST_CASE("with stress: every rod's comes back to the bit, resumed or not, and a
     const std::string good = content_of(path);
     CHECK(good.size() == 16 + 3 * (72 + 8) + 5 * (52 + 72));
     {
-        TrajectoryJournal journal = TrajectoryJournal::resume(path, middle);
+        TrajectoryJournal journal = TrajectoryJournal::resume(path, middle, checksum(good.substr(0, middle)));
         journal.append(30, 3.0, Box{}, some_rods(3, 30), some_stress(3, -7.0));
     }
     CHECK(content_of(path) == good);

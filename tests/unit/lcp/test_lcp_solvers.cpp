@@ -97,6 +97,27 @@ TEST_CASE("an empty problem is solved at once") {
     });
 }
 
+TEST_CASE("a search that is interrupted ends at once and says so") {
+    for_each_solver([](const Solver& solver) {
+        const DenseOperator A(chain(60));
+        const Eigen::VectorXd b = Eigen::VectorXd::Constant(60, -1.0);
+        for (const int questions : {1, 2, 5}) {
+            int asked = 0;
+            LcpSettings settings = tight(solver);
+            settings.interrupted = [&] { return ++asked == questions; };
+            const LcpProblem problem{A, {b.data(), 60}, 1.0};
+            const LcpResult result = solver.solve(problem, settings, {});
+            CHECK(result.status == LcpStatus::interrupted);
+            CHECK(asked == questions);
+            CHECK(result.iterations == static_cast<std::uint64_t>(questions));
+            check_consistent(problem, result);
+        }
+        LcpSettings settings = tight(solver);
+        settings.interrupted = [] { return false; };
+        CHECK(solver.solve({A, {b.data(), 60}, 1.0}, settings, {}).status == LcpStatus::converged);
+    });
+}
+
 TEST_CASE("one contact by hand: gamma = -b/A where b < 0, else 0") {
     for_each_solver([](const Solver& solver) {
         const DenseOperator A(Eigen::MatrixXd::Constant(1, 1, 4.0));

@@ -102,6 +102,26 @@ TEST_CASE("no quantity may be nan, infinite or out of bounds, whichever key it i
         }
 }
 
+TEST_CASE("contact.range is bounded by the longest rod from end to end") {
+    std::string message;
+    for (const double range : {6.1, 1e12, 1e30})
+        CHECK(refused_key(
+                  [&](Scene& s) {
+                      s.rods.length = 5.0;
+                      s.contact.range = range;
+                  },
+                  &message) == "contact.range");
+    CHECK(message.find("the longest measures 6 from end to end (allowed: at most 6)") != std::string::npos);
+    const auto cells = [](Scene& s) {
+        s.rods.length = 2.0;
+        s.growth.rate = 0.1;
+        s.growth.division_length = 8.0;
+    };
+    CHECK(refused_key([&](Scene& s) { cells(s), s.contact.range = 9.0; }) == "");
+    CHECK(refused_key([&](Scene& s) { cells(s), s.contact.range = 9.1; }) == "contact.range");
+    CHECK(refused_key([&](Scene& s) { s.rods.length = 0.0, s.contact.range = 1.0; }) == "");
+}
+
 TEST_CASE("ranges") {
     CHECK(refused_key([](Scene& s) { s.seed = ~std::uint64_t{0}; }) == "seed");
     CHECK(refused_key([](Scene& s) { s.rods.count = 0; }) == "rods.count");

@@ -1,0 +1,208 @@
+#include "run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <utility>
+
+#include "jostle/io/durable_file.hpp"
+#include "jostle/io/h5md_writer.hpp"
+#include "jostle/io/series_columns.hpp"
+#include "jostle/io/units.hpp"
+#include "jostle/simulation/largest_overlap.hpp"
+#include "jostle/simulation/rod_size.hpp"
+#include "jostle/simulation/scene_motion.hpp"
+#include "jostle/simulation/step_failure.hpp"
+#include "post_mortem.hpp"
+#include "stop_request.hpp"
+#include "summary.hpp"
+#include "summary_text.hpp"
+#include "version.hpp"
+
+using namespace jostle;
+
+namespace {
+
+/// Steps of large assemblies take long: a crash shall cost no more than this.
+constexpr std::chrono::minutes longest_between_checkpoints{10};
+/// Wall time kept for the end of a run, beside its last checkpoint: between two steps, and within one (s).
+constexpr double kept_between_steps = 1.0, kept_within_step = 0.5;
+
+H5mdAttributes trajectory_attributes(const RunScene& run_scene, const std::string& command_line) {
+    const Scene& scene = run_scene.scene;
+    H5mdAttributes attributes;
+    attributes.version = jostle_version;
+    attributes.scene = run_scene.text;
+    attributes.resolved_scene = run_scene.resolved;
+    attributes.seed = scene.seed;
+    attributes.command_line = command_line;
+    attributes.host = host_name();
+    attributes.unit_system = scene.units.system == UnitSystem::micro ? "SI" : "reduced";
+    attributes.length_unit = unit_of(scene, dimension::length);
+    attributes.time_unit = unit_of(scene, dimension::time);
+    attributes.stress_unit = unit_of(scene, dimension::stress);
+    attributes.energy_unit = unit_of(scene, dimension::energy);
+    attributes.kT = thermal_energy(scene);
+    return attributes;
+}
+
+}  // namespace
+
+Run::Run(const RunOptions& options, const RunScene& scene, Simulation& simulation, RunFiles& files,
+         const RunDirectory& directory, StepSums sums)
+    : options_(options),
+      run_scene_(scene),
+      scene_(scene.scene),
+      simulation_(simulation),
+      files_(files),
+      directory_(directory),
+      sums_(std::move(sums)),
+      length_(scene_, simulation.settings().time_step),
+      record_(directory, options),
+      progress_(options.quiet || options.json) {
+    simulation_.interrupt_when(
+        [this] { return stop_request::signal_received() != 0 || wall_time_is_over(kept_within_step); });
+}
+
+ExitCode Run::go() {
+    stop_request::wait_for_steps();
+    record_.write(simulation_, "running");
+    show_progress();
+    while (!length_.is_over(files_.series())) {
+        if (simulation_.rods().size() == 0) return die_out();
+        StepReport report;
+        report.step = simulation_.clock().step;
+        report.time = simulation_.clock().time;
+        try {
+            report = simulation_.step();
+        } catch (const InputError& error) {  // cells have become what no mobility, or no id, is there for
+            report.contacts = simulation_.contacts().size();
+            return give_up(report, error.what(), "");
+        }
+        if (report.status == LcpStatus::interrupted) return stop_early(reason_to_stop());
+        longest_step_ = std::max(longest_step_, std::accumulate(report.seconds.begin(), report.seconds.end(), 0.0));
+        if (const auto failure = step_failure(report, scene_, simulation_.rods()))
+            return give_up(report, *failure, advice(report, scene_, simulation_));
+        sums_.add(report, simulation_);
+        if (scene_.growth.rate > 0.0) files_.append_lineage(simulation_);
+        if (simulation_.rods().size() == 0) continue;
+        write_what_is_due();
+        if (progress_.is_due()) show_progress();
+        if (const std::string reason = reason_to_stop(); !reason.empty()) return stop_early(reason);
+    }
+    return finish();
+}
+
+void Run::write_what_is_due() {
+    const std::uint64_t step = simulation_.clock().step;
+    const auto due = [step](std::uint64_t every) { return every > 0 && step % every == 0; };
+    if (due(scene_.output.series_every)) {
+        sums_.look_at_swimmers(scene_, simulation_);
+        files_.append_row(series_row(simulation_, sums_));
+        if (scene_.output.contacts) files_.append_contacts(simulation_);
+        sums_.start_row();
+    }
+    if (due(scene_.output.trajectory_every)) files_.append_frame(simulation_);
+    if (due(scene_.output.field_every)) {
+        files_.append_field(simulation_, *sums_.field);
+        sums_.field->clear();
+    }
+    const bool is_overdue = std::chrono::steady_clock::now() - last_checkpoint_ > longest_between_checkpoints;
+    if (due(scene_.output.checkpoint_every) || is_overdue) checkpoint();
+}
+
+void Run::checkpoint() {
+    const auto begin = std::chrono::steady_clock::now();
+    files_.write_checkpoint(simulation_, sums_);
+    record_.write(simulation_, "running");  // what a session that is killed has done
+    last_checkpoint_ = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> took = last_checkpoint_ - begin;
+    longest_checkpoint_ = std::max(longest_checkpoint_, took.count());
+}
+
+/// `still_to_be_done`: seconds before the last checkpoint can be written.
+bool Run::wall_time_is_over(double still_to_be_done) const {
+    if (!options_.wall_time) return false;
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - options_.began;
+    return elapsed.count() + 3.0 * longest_checkpoint_ + still_to_be_done >= *options_.wall_time;
+}
+
+std::string Run::reason_to_stop() const {
+    if (stop_request::signal_received() != 0) return fmt::format("signal {}", stop_request::signal_received());
+    return wall_time_is_over(longest_step_ + kept_between_steps) ? "walltime" : "";
+}
+
+void Run::show_progress() {
+    const SeriesTable& series = files_.series();
+    const Rods& rods = simulation_.rods();
+    const auto last = [&](const char* column) {
+        return series.rows() == 0 ? std::nan("") : series.column(column).back();
+    };
+    progress_.show({simulation_.clock().step, simulation_.clock().time, total_volume(rods) / simulation_.box().volume(),
+                    last("Z"), sums_.run_max_overlap / smallest_diameter(scene_, rods), last("iterations"),
+                    last("contacts"), length_.fraction_done(series.rows())});
+}
+
+void Run::write_trajectory() const {
+    if (!files_.has_trajectory()) return;
+    write_h5md(directory_.file("trajectory.journal"), directory_.file("trajectory.h5"),
+               trajectory_attributes(run_scene_, options_.command_line), &files_.series());
+}
+
+ExitCode Run::stop_early(const std::string& reason) {
+    checkpoint();
+    write_trajectory();
+    record_.write(simulation_, reason);
+    show_progress();
+    const std::string how = directory_.was_moved() ? "its folder was moved: to go on give --out " + directory_.path()
+                                                   : "run the same command again to go on";
+    if (!options_.quiet)
+        std::fprintf(stderr, "\njostle: stopped at step %llu (%s); %s\n",
+                     static_cast<unsigned long long>(simulation_.clock().step), reason.c_str(), how.c_str());
+    return ExitCode::stopped_early;
+}
+
+/// All cells have died: there is nothing to average.
+ExitCode Run::die_out() {
+    checkpoint();
+    write_trajectory();
+    record_.write(simulation_, "extinct");
+    if (options_.json) std::printf("%s\n", R"({"rods": 0, "exit_reason": "extinct"})");
+    std::fprintf(stderr, "jostle: all cells have died by step %llu\n",
+                 static_cast<unsigned long long>(simulation_.clock().step));
+    return ExitCode::done;
+}
+
+ExitCode Run::give_up(const StepReport& report, const std::string& failure, const std::string& advice) {
+    write_post_mortem(directory_.file("post_mortem.json"), simulation_, report, failure);
+    write_trajectory();
+    record_.write(simulation_, failure);
+    std::fprintf(stderr, "jostle: step %llu failed: %s\n%s  details: %s\n",
+                 static_cast<unsigned long long>(report.step), failure.c_str(), advice.c_str(),
+                 directory_.file("post_mortem.json").c_str());
+    return ExitCode::numerics;
+}
+
+ExitCode Run::finish() {
+    checkpoint();
+    StepReport last;  // steps report the overlap with which they begin: that of the end is nobody's yet
+    last.step = simulation_.clock().step;
+    last.time = simulation_.clock().time;
+    last.max_overlap = largest_overlap(simulation_.rods(), simulation_.box());
+    if (const auto failure = step_failure(last, scene_, simulation_.rods()))
+        return give_up(last, *failure, advice(last, scene_, simulation_));
+    write_trajectory();
+    const double overlap = std::max(sums_.run_max_overlap, last.max_overlap);
+    const auto summary = summarise(scene_, simulation_, files_.series(), overlap);
+    replace_file(directory_.file("summary.json"), summary.dump(2) + "\n");
+    record_.write(simulation_, "done");
+    show_progress();
+    if (options_.json)
+        std::printf("%s\n", summary.dump(2).c_str());
+    else if (!options_.quiet)
+        std::printf("%s%s\n", summary_text(summary).c_str(), ("files in " + directory_.path()).c_str());
+    return ExitCode::done;
+}

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "exit_code.hpp"
+#include "jostle/io/run_directory.hpp"
+#include "jostle/io/step_sums.hpp"
+#include "jostle/simulation/simulation.hpp"
+#include "progress_line.hpp"
+#include "run_files.hpp"
+#include "run_length.hpp"
+#include "run_options.hpp"
+#include "run_record.hpp"
+#include "run_scene.hpp"
+
+/// A run from its beginning, or from its checkpoint, to its end.
+class Run {
+public:
+    /// Holds references. `sums`: as they are where `simulation` stands.
+    Run(const RunOptions& options, const RunScene& scene, jostle::Simulation& simulation, RunFiles& files,
+        const jostle::RunDirectory& directory, jostle::StepSums sums);
+
+    /// Makes steps, and writes what is due, until the run is over or has to stop.
+    ExitCode go();
+
+private:
+    void write_what_is_due();
+    void checkpoint();
+    bool wall_time_is_over(double still_to_be_done) const;
+    std::string reason_to_stop() const;
+    void show_progress();
+    void write_trajectory() const;
+    ExitCode stop_early(const std::string& reason);
+    ExitCode die_out();
+    ExitCode give_up(const jostle::StepReport& report, const std::string& failure, const std::string& advice);
+    ExitCode finish();
+
+    const RunOptions& options_;
+    const RunScene& run_scene_;
+    const jostle::Scene& scene_;
+    jostle::Simulation& simulation_;
+    RunFiles& files_;
+    const jostle::RunDirectory& directory_;
+    jostle::StepSums sums_;
+    RunLength length_;
+    RunRecord record_;
+    ProgressLine progress_;
+    std::chrono::steady_clock::time_point last_checkpoint_ = std::chrono::steady_clock::now();
+    double longest_step_ = 0.0, longest_checkpoint_ = 0.0;  ///< s
+};

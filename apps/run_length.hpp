@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+
+#include "jostle/io/series_file.hpp"
+#include "jostle/simulation/scene.hpp"
+
+/// Decides, from the series alone, when a run has all that it was asked for.
+class RunLength {
+public:
+    RunLength(const jostle::Scene& scene, double time_step);
+
+    bool is_over(const jostle::SeriesTable& series);
+
+    /// From 0 to 1; with equilibration to be detected, as if it took a quarter of the production.
+    double fraction_done(std::size_t rows) const;
+
+private:
+    const jostle::Scene& scene_;
+    std::size_t production_rows_ = 1;
+    std::size_t fixed_rows_ = 0;  ///< 0: equilibration is detected
+    std::size_t rows_looked_at_ = 0;
+};

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "jostle/simulation/scene.hpp"
+
+/// The scene of a run, in the three forms in which its files hold it.
+struct RunScene {
+    std::string path;      ///< of the file, as given
+    std::string text;      ///< of the file, byte for byte
+    jostle::Scene scene;   ///< as read
+    std::string resolved;  ///< with every default spelled out
+};

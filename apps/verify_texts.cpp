@@ -1,0 +1,95 @@
+#include "verify_texts.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <initializer_list>
+
+#include "jostle/io/durable_file.hpp"
+#include "jostle/io/scene_reader.hpp"
+#include "jostle/io/scene_writer.hpp"
+#include "parsed_json.hpp"
+#include "run_files.hpp"
+
+using namespace jostle;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr const char* written_anew = "Run the same command again: it writes this file anew";
+
+void print_sound(const std::string& name) {
+    std::printf("%s: sound\n", name.c_str());
+}
+
+/// Returns the resolved form of scene.toml, which may have another end than the checkpoint: a run goes on with it.
+std::string verify_scene(const std::string& folder, const Checkpoint& checkpoint) {
+    const std::string path = folder + "/scene.toml";
+    const std::string resolved = to_toml(parse_scene(read_scene_text(path), path));
+    if (const std::string difference = scene_difference(checkpoint.scene, resolved); !difference.empty())
+        throw refused_file(path, "is not the scene of the checkpoint: " + difference,
+                           "Run the same command again, or put resolved.toml in its place");
+    print_sound("scene.toml");
+    return resolved;
+}
+
+void verify_resolved(const std::string& folder, const Checkpoint& checkpoint, const std::string& resolved_now) {
+    const std::string path = folder + "/resolved.toml";
+    const std::string text = read_file(path);
+    if (text != resolved_now && text != checkpoint.scene)
+        throw refused_file(path, "is the resolved form neither of scene.toml nor of the scene in the checkpoint",
+                           written_anew);
+    print_sound("resolved.toml");
+}
+
+void verify_descriptions(const std::string& folder, const Checkpoint& checkpoint) {
+    for (const DescribedTable& table : described_tables(parse_scene(checkpoint.scene, folder + "/checkpoint"))) {
+        const std::string name = table.name + ".json", path = folder + "/" + name;
+        if (read_file(path) != series_description(table.name, table.columns))
+            throw refused_file(path, "does not describe the columns as this version of jostle does", written_anew);
+        print_sound(name);
+    }
+}
+
+/// A JSON file with these numbers in it, and these texts.
+Json verify_json(const std::string& folder, const std::string& name, std::initializer_list<const char*> numbers,
+                 std::initializer_list<const char*> texts) {
+    const std::string path = folder + "/" + name;
+    const auto require = [&](bool sound, const std::string& problem) {
+        if (!sound) throw refused_file(path, problem, written_anew);
+    };
+    Json content = parsed_json(read_file(path));
+    require(content.is_object(), "is damaged: it is no JSON object");
+    for (const char* key : numbers)
+        require(content.contains(key) && content[key].is_number(),
+                "is damaged: it has no number \"" + std::string(key) + "\"");
+    for (const char* key : texts)
+        require(content.contains(key) && content[key].is_string(),
+                "is damaged: it has no text \"" + std::string(key) + "\"");
+    print_sound(name);
+    return content;
+}
+
+/// What the run did. Result: whether it came to its end.
+bool verify_record(const std::string& folder) {
+    const Json record = verify_json(folder, "run.json", {"seed", "time_step", "steps"}, {"version", "exit_reason"});
+    const Json sessions = record.value("sessions", Json());
+    const auto is_object = [](const Json& session) { return session.is_object(); };
+    if (!sessions.is_array() || !std::all_of(sessions.begin(), sessions.end(), is_object))
+        throw refused_file(folder + "/run.json", "is damaged: its \"sessions\" are no list", written_anew);
+    return record["exit_reason"] == "done";
+}
+
+}  // namespace
+
+void verify_texts(const std::string& folder, const Checkpoint& checkpoint) {
+    const auto is_there = [&](const char* name) { return file_exists(folder + "/" + name); };
+    verify_resolved(folder, checkpoint, verify_scene(folder, checkpoint));
+    verify_descriptions(folder, checkpoint);
+    // The first record is written after the first checkpoint, and before the first step.
+    const bool has_record = checkpoint.step > 0 || is_there("run.json");
+    const bool is_done = has_record && verify_record(folder);
+    if (is_done || is_there("summary.json"))
+        verify_json(folder, "summary.json", {"volume_fraction", "rods", "steps", "time", "max_overlap"}, {});
+    if (is_there("post_mortem.json"))
+        verify_json(folder, "post_mortem.json", {"step", "time", "time_step"}, {"failure"});
+}
