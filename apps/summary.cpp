@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "anisotropy_check.hpp"
 #include "jostle/io/series_columns.hpp"
 #include "jostle/io/units.hpp"
 #include "jostle/math/symmetric_eigen.hpp"
 #include "jostle/simulation/rod_size.hpp"
 #include "jostle/stress/stress.hpp"
 #include "production_window.hpp"
+#include "stress_columns.hpp"
+#include "stress_ratio_checks.hpp"
 #include "summary_entries.hpp"
 
 using namespace jostle;
@@ -35,7 +36,7 @@ void summarise_active_stress(const SeriesTable& series, std::size_t first, const
     summary["stress_active"] = tensor_entry(window_columns(series, first, active_stress_column_names), unit);
 }
 
-/// Eigenvalues of the mean collision stress, ascending.
+/// Eigenvalues of the mean stress, ascending.
 Json mean_principal_stresses(const Columns& stress) {
     std::array<double, 9> mean{};
     for (std::size_t k = 0; k < 9; ++k) mean[k] = mean_of(stress[k]);
@@ -57,8 +58,11 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     const std::string stress_unit = unit_of(scene, dimension::stress);
     const Rods& rods = simulation.rods();
     const bool thermal = simulation.settings().kT > 0.0, grows = scene.growth.rate > 0.0;
+    const bool springs = !scene.springs.file.empty();
     const auto average_of = [&](const char* name) { return average(from_row(series.column(name), first)); };
-    const Columns stress = window_columns(series, first, stress_column_names);
+    const Columns collision = window_columns(series, first, stress_column_names);
+    const Columns stress = total_stress_columns(series, first, springs);
+    const Columns order = window_columns(series, first, order_tensor_column_names);
 
     Json summary;
     summary["volume_fraction"] = total_volume(rods) / simulation.box().volume();
@@ -69,18 +73,23 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     if (thermal) summary["Z"] = described(average_of("Z"), "");
     summary["pressure"] = described(average_of("pressure"), stress_unit);
     summary["pressure_collision"] = described(average_of("pressure_collision"), stress_unit);
-    summary["stress_collision"] = tensor_entry(stress, stress_unit);
+    summary["stress"] = tensor_entry(stress, stress_unit);
+    summary["stress"]["definition"] =
+        springs ? "kinetic + orientation + collision + springs" : "kinetic + orientation + collision";
     summary["stress_kinetic"] = {{"mean", (grows ? average_of("N").mean : static_cast<double>(rods.size())) /
                                               simulation.box().volume() * simulation.settings().kT},
                                  {"unit", stress_unit},
                                  {"definition", "n kT, on the diagonal"}};
-    if (!scene.springs.file.empty()) {
+    summary["stress_orientation"] = tensor_entry(orientation_stress_columns(series, first), stress_unit);
+    summary["stress_collision"] = tensor_entry(collision, stress_unit);
+    if (springs) {
         summary["pressure_springs"] = described(average_of("pressure_springs"), stress_unit);
         summary["stress_springs"] =
             tensor_entry(window_columns(series, first, spring_stress_column_names), stress_unit);
     }
     if (scene.motion.self_propulsion != 0.0) summarise_active_stress(series, first, stress_unit, summary);
-    summary["principal_stresses_collision"] = {{"mean", mean_principal_stresses(stress)}, {"unit", stress_unit}};
+    summary["principal_stresses"] = {{"mean", mean_principal_stresses(stress)}, {"unit", stress_unit}};
+    summary["principal_stresses_collision"] = {{"mean", mean_principal_stresses(collision)}, {"unit", stress_unit}};
     if (scene.output.stress_conventions)
         for (const auto& [name, columns] : {std::pair{"centre_of_mass", centre_of_mass_column_names},
                                             std::pair{"centre_line", centre_line_column_names}}) {
@@ -89,18 +98,22 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
             summary["stress_conventions"][name]["anisotropy"] = described(jackknife(other, eigenvalue_ratio));
         }
     summary["nematic_order"] = described(average_of("nematic_order"), "");
-    const Vec3 director = mean_director(window_columns(series, first, order_tensor_column_names)).direction;
+    const Vec3 director = mean_director(order).direction;
     summary["director"] = {director.x, director.y, director.z};
     summary["anisotropy"] = described(jackknife(stress, eigenvalue_ratio));
+    summary["anisotropy_collision"] = described(jackknife(collision, eigenvalue_ratio));
     summary["equilibration_time"] = window.equilibration_time;
     summary["equilibrated"] = window.equilibrated;
     summary["production_rows"] = series.rows() - std::min(first, series.rows());
     summary["max_overlap"] = run_max_overlap / smallest_diameter(scene, rods);
-    Json oracles = Json::object();
-    const bool free = scene.motion.self_propulsion == 0.0 && scene.springs.file.empty();
-    if (thermal && free && !grows && all_alike(rods))
-        oracles["anisotropy"] = anisotropy_oracle(series, first, rods, stress);
-    summary["oracles"] = oracles;
+    Json checks = Json::object();
+    const bool in_equilibrium = thermal && scene.motion.self_propulsion == 0.0 && !springs && !grows;
+    if (in_equilibrium && simulation.box().is_periodic())
+        checks["total_stress_ratio"] = total_stress_ratio_check(stress, order);
+    if (in_equilibrium && all_alike(rods))
+        checks["collision_stress_ratio"] = collision_stress_ratio_check(
+            collision, order, from_row(series.column("Z"), first), rods.length.front() / rods.diameter.front());
+    summary["checks"] = checks;
     const Average number = average_of("N");
     if (number.standard_deviation > 0.0 && !number.standard_error)
         withhold_errors(summary, "The number of cells changes throughout: averages are of no state that lasts.");

@@ -6,6 +6,6 @@
 #include "jostle/simulation/scene.hpp"
 #include "jostle/simulation/simulation.hpp"
 
-/// summary.json: averages over the window with error bars, and the check of the anisotropy against theory.
+/// summary.json: averages over the window with error bars, and checks of the stress against what equilibrium has.
 nlohmann::ordered_json summarise(const jostle::Scene& scene, const jostle::Simulation& simulation,
                                  const jostle::SeriesTable& series, double run_max_overlap);

@@ -2,45 +2,87 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 using Json = nlohmann::ordered_json;
 
-std::string summary_text(const Json& summary) {
-    std::string text;
-    const auto line = [&](const Json& entry, const char* name) {
-        if (entry.is_null()) return;
-        const std::string unit = entry.value("unit", "");
-        const std::string mean =
-            entry["mean"].is_null() ? "not defined" : fmt::format("{:.5g}", entry["mean"].get<double>());
-        if (entry["standard_error"].is_null())
-            text += fmt::format("{:20} = {} {} (no error bar: {})\n", name, mean, unit,
-                                entry.value("no_standard_error_because", "not defined"));
-        else
-            text += fmt::format("{:20} = {} +- {:.2g} {} (n_eff {:.0f})\n", name, mean,
-                                entry["standard_error"].get<double>(), unit, entry["n_eff"].get<double>());
-    };
-    const auto entry = [&](const char* key) { return summary.value(key, Json()); };
-    line(entry("Z"), "Z");
-    line(entry("pressure"), "pressure");
-    line(entry("pressure_collision"), "collision pressure");
-    line(entry("pressure_springs"), "pressure of springs");
-    line(entry("pressure_active"), "active pressure");
-    line(entry("nematic_order"), "nematic order S");
-    line(entry("anisotropy"), "stress anisotropy");
-    if (summary["oracles"].contains("anisotropy")) {
-        line(summary["oracles"]["anisotropy"]["measured"], "  along over across");
-        line(summary["oracles"]["anisotropy"]["predicted"], "  as equilibrium has");
-    }
-    text +=
-        fmt::format("{:20} = {:.4g}{}\n", "equilibration time", summary["equilibration_time"].get<double>(),
-                    summary["equilibrated"].get<bool>() ? "" : "   WARNING: equilibrium was not reached; run longer");
-    text += fmt::format("{:20} = {:.2e} D\n", "largest overlap", summary["max_overlap"].get<double>());
-    if (summary["oracles"].contains("anisotropy")) {
-        const Json& oracle = summary["oracles"]["anisotropy"];
-        if (oracle["agree"] == Json(false))
-            text += fmt::format(
-                "WARNING: the stress anisotropy differs from that of equilibrium by {:.3g} +- {:.2g}: the run may be "
-                "too short, its steps too long, or the box a bad fit to layers of rods\n",
-                oracle["difference"].get<double>(), oracle["standard_error"].get<double>());
+namespace {
+
+constexpr std::pair<const char*, const char*> checks[] = {{"total_stress_ratio", "total stress"},
+                                                          {"collision_stress_ratio", "collision stress"}};
+
+std::string mean_text(const Json& entry) {
+    if (entry["mean"].is_null()) return "not defined";
+    std::string text = fmt::format("{:.5g}", entry["mean"].get<double>());
+    if (!entry["standard_error"].is_null()) text += fmt::format(" +- {:.2g}", entry["standard_error"].get<double>());
+    return entry.contains("unit") ? text + " " + entry["unit"].get<std::string>() : text;
+}
+
+/// What the standard error rests on, or why there is none.
+std::string support_text(const Json& entry) {
+    if (!entry["standard_error"].is_null()) return fmt::format("(n_eff {:.0f})", entry["n_eff"].get<double>());
+    return fmt::format("(no error bar: {})", entry.value("no_standard_error_because", "not defined"));
+}
+
+std::string line(const char* name, const std::string& value) {
+    return fmt::format("{:20} = {}\n", name, value);
+}
+
+/// A number, or the two that it may lie between.
+std::string range_text(const Json& range) {
+    if (range["from"].is_null() || range["to"].is_null()) return "not defined";
+    const std::string from = fmt::format("{:.5g}", range["from"].get<double>());
+    const std::string to = fmt::format("{:.5g}", range["to"].get<double>());
+    return from == to ? from : from + " to " + to;
+}
+
+std::string text_of_checks(const Json& of_summary) {
+    if (of_summary.empty()) return "";
+    std::string text = "stress ratio along/across the director, measured and in equilibrium\n";
+    for (const auto& [key, name] : checks) {
+        if (!of_summary.contains(key)) continue;
+        const Json& check = of_summary[key];
+        const std::string verdict = check["agree"].is_null()     ? ""
+                                    : check["agree"].get<bool>() ? ": agrees"
+                                                                 : ": disagrees";
+        text += line(fmt::format("  {}", name).c_str(),
+                     fmt::format("{}, in equilibrium {}{}  {}", mean_text(check["measured"]),
+                                 range_text(check["in_equilibrium"]), verdict, support_text(check["measured"])));
     }
     return text;
+}
+
+std::string warnings_of_checks(const Json& of_summary) {
+    std::string text;
+    for (const auto& [key, name] : checks) {
+        if (!of_summary.contains(key) || of_summary[key]["agree"] != Json(false)) continue;
+        text += fmt::format(
+            "WARNING: the {} along/across the director differs from that of equilibrium by {:.3g} +- {:.2g}: the run "
+            "may be too short, its steps too long, or the box a bad fit to layers of rods, or no wider than a rod\n",
+            name, of_summary[key]["difference"].get<double>(), of_summary[key]["standard_error"].get<double>());
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string summary_text(const Json& summary) {
+    constexpr std::pair<const char*, const char*> averages[] = {{"Z", "Z"},
+                                                                {"pressure", "pressure"},
+                                                                {"pressure_collision", "collision pressure"},
+                                                                {"pressure_springs", "pressure of springs"},
+                                                                {"pressure_active", "active pressure"},
+                                                                {"nematic_order", "nematic order S"},
+                                                                {"anisotropy", "stress anisotropy"},
+                                                                {"anisotropy_collision", "  of collisions"}};
+    std::string text;
+    for (const auto& [key, name] : averages)
+        if (summary.contains(key)) text += line(name, mean_text(summary[key]) + "  " + support_text(summary[key]));
+    text += text_of_checks(summary["checks"]);
+    const bool equilibrated = summary["equilibrated"].get<bool>();
+    text += line("equilibration time",
+                 fmt::format("{:.4g}{}", summary["equilibration_time"].get<double>(),
+                             equilibrated ? "" : "   WARNING: equilibrium was not reached; run longer"));
+    text += line("largest overlap", fmt::format("{:.2e} D", summary["max_overlap"].get<double>()));
+    return text + warnings_of_checks(summary["checks"]);
 }

@@ -10,7 +10,9 @@ MARK = '<meta name="generator" content="jostle report">'
 NAME = "report.html"
 AVERAGES = {"Z": "compressibility factor Z", "pressure": "pressure", "pressure_collision": "collision pressure",
             "pressure_springs": "pressure of springs", "pressure_active": "active pressure",
-            "nematic_order": "nematic order S", "anisotropy": "stress anisotropy"}
+            "nematic_order": "nematic order S", "anisotropy": "stress anisotropy",
+            "anisotropy_collision": "anisotropy of the collision stress"}
+CHECKS = {"total_stress_ratio": "stress along/across the director", "collision_stress_ratio": "collision stress along/across the director"}
 STYLE = """
 body { font: 16px/1.5 sans-serif; color: #222; max-width: 76rem; margin: 2rem auto; padding: 0 1.2rem; }
 h1 { font-size: 1.7rem; margin-bottom: .2rem; } h2 { font-size: 1.2rem; margin-top: 2.2rem; }
@@ -38,7 +40,9 @@ def text(run, folder, pictures, view, notes):
     parts += [f'<p class="note">{html.escape(note)}</p>\n' for note in notes]
     if run.summary:
         parts += ['<h2>Averages</h2>\n<div class="tables">', table(AVERAGE_HEADS, average_rows(run)),
-                  table(("Collision stress", "", "", ""), stress_rows(run)), "</div>\n", reasons(run)]
+                  table(("Stress", "", "", ""), stress_rows(run, "stress")),
+                  table(("Collision stress", "", "", ""), stress_rows(run, "stress_collision")), "</div>\n", reasons(run)]
+        parts += checks(run)
     parts += ["<h2>Over time</h2>\n<div class=\"plots\">\n"]
     parts += [f"<div>{embedded(folder / name, title)}</div>\n" for name, title in pictures]
     parts += ["</div>\n<h2>The run</h2>\n", table(("", ""), facts(run)),
@@ -78,8 +82,8 @@ def average_rows(run):
     yield ("largest overlap of the run", f"{run.summary['max_overlap']:.2e}", "", "", "D")
 
 
-def stress_rows(run):
-    stress = run.summary.get("stress_collision")
+def stress_rows(run, name):
+    stress = run.summary.get(name)
     if not stress:
         return
     largest = max(abs(mean) for row in stress["mean"] for mean in row)
@@ -91,6 +95,20 @@ def stress_rows(run):
             number(mean / scale, error and error / scale) + ("" if error is None else f" ± {error / scale:.1g}")
             for mean, error in zip(stress["mean"][row], stress["standard_error"][row])))
     yield ("unit", (f"10{superscript(power)} " if power else "") + readable_unit(stress.get("unit", "1")), "", "")
+
+
+def checks(run):
+    """What is measured beside what equilibrium has, where a run is in equilibrium."""
+    rows = [check_row(words, run.summary["checks"][name]) for name, words in CHECKS.items() if name in run.summary.get("checks", {})]
+    return ["<h2>Checks</h2>\n", table(("Ratio", "measured", "standard error", "in equilibrium", ""), rows)] if rows else []
+
+
+def check_row(words, check):
+    measured, error = check["measured"]["mean"], check["measured"]["standard_error"]
+    least, most = (check["in_equilibrium"][end] for end in ("from", "to"))
+    expected = "–" if least is None or most is None else " to ".join(dict.fromkeys(f"{end:.5g}" for end in (least, most)))
+    verdict = {True: "agrees", False: "disagrees", None: "no error bar"}[check["agree"]]
+    return (words, "–" if measured is None else number(measured, error), "–" if error is None else f"{error:.2g}", expected, verdict)
 
 
 def reasons(run):

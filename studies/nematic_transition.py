@@ -53,9 +53,9 @@ def evaluate(report, runs_by_name, quick):
         start, phi = run.scene["rods"]["start"], run.scene["box"]["volume_fraction"]
         state = f"{start} start, phi = {phi:.2f}"
         Z, S = run.value_if_any("Z"), run.value_if_any("nematic_order")
-        oracle = run.summary["oracles"]["anisotropy"]
-        measured, predicted = oracle["measured"]["mean"], oracle["predicted"]["mean"]
-        error = oracle["standard_error"] or math.nan
+        check = run.summary["checks"]["collision_stress_ratio"]
+        measured, predicted = check["measured"]["mean"], check["in_equilibrium"]["to"]
+        error = check["standard_error"] or math.nan
         entry = run.summary["nematic_order"]
         correlation = entry["correlation_time_rows"] * 10 * run.time_step
         equilibrium = reference_values.monte_carlo_at(BETA, phi, "aligned" if start == "aligned" else "isotropic")
@@ -87,7 +87,7 @@ def evaluate(report, runs_by_name, quick):
         difference = per_cent(Z[0], equilibrium.Z, math.hypot(Z[1], equilibrium.Z_error)) if equilibrium else ""
         rows.append([start, f"{phi:.2f}", with_error(*Z), reference, difference, with_error(*S),
                      f"{equilibrium.S:.3f}" if equilibrium else "", f"{correlation:.0f}", f"{entry['n_eff']:.0f}",
-                     with_error(measured, oracle["measured"]["standard_error"] or math.nan), f"{predicted:.3f}"])
+                     with_error(measured, check["measured"]["standard_error"] or math.nan), f"{predicted:.3f}"])
         numbers.append([start, phi, *Z, *S, correlation, entry["n_eff"], measured, predicted, error])
     report.table("Z, order S and anisotropy sigma_max/sigma_min; tau_S is the correlation time of S in mu D3/kT (free rods forget their direction in "
                  "1/(6 D_R) = 29), n_S how many independent samples of S the run holds (below ten: no error bar).",

@@ -43,7 +43,7 @@ def test_files_follow_the_number_of_cells(tmp_path):
             lengths = rods["length/value"][frame]
             assert np.all((lengths[there] >= 1.0) & (lengths[there] < 6.0)) and np.all(np.isnan(lengths[~there]))
     summary = json.loads((folder / "summary.json").read_text())
-    assert summary["equilibration_time"] == 0.0 and summary["oracles"] == {}
+    assert summary["equilibration_time"] == 0.0 and summary["checks"] == {}
     assert summary["rods"] == alive and mean(folder, "Z") > 1.0
     # From 10 to some 60 cells: no state of which there could be an error bar.
     assert summary["Z"]["standard_error"] is None and "number of cells changes" in summary["Z"]["no_standard_error_because"]

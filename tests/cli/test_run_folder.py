@@ -140,7 +140,7 @@ def test_plain_text_without_a_terminal(spheres):
         assert "\r" not in text and "\x1b" not in text and text.isascii()
     assert PROGRESS.match(result.stderr.splitlines()[-1]), result.stderr
     assert result.stderr.count("\n") == 1
-    for name in ("Z", "pressure", "collision pressure", "nematic order S", "stress anisotropy", "equilibration time",
+    for name in ("Z", "pressure", "collision pressure", "nematic order S", "stress anisotropy", "  of collisions", "equilibration time",
                  "largest overlap"):
         assert re.search(rf"^{name} += ", result.stdout, re.MULTILINE), result.stdout
 

@@ -9,7 +9,8 @@ from jostle_command import DONE, RODS, SPHERES, changed, column, finish, mean, r
 from read_h5md import read as read_h5md
 
 SERIES = (["step", "time", "N", "phi", "Z", "pressure", "pressure_collision"]
-          + [f"stress_{a}{b}" for a in "xyz" for b in "xyz"] + ["nematic_order"]
+          + [f"stress_{a}{b}" for a in "xyz" for b in "xyz"]
+          + [f"stress_orientation_{ab}" for ab in ("xx", "xy", "xz", "yy", "yz", "zz")] + ["nematic_order"]
           + [f"order_{ab}" for ab in ("xx", "xy", "xz", "yy", "yz", "zz")]
           + ["contacts", "active_contacts", "iterations", "residual", "max_overlap"])
 AVERAGE = {"mean", "standard_error", "n_eff", "standard_deviation"}
@@ -38,8 +39,8 @@ def complete(folder, scene, columns=SERIES):
     write_scene(folder, scene)
     result = finish(folder)
     summary = read(result, "summary.json")
-    promised = {"pressure", "pressure_collision", "stress_collision", "nematic_order", "anisotropy",
-                "equilibration_time", "max_overlap", "oracles"}
+    promised = {"pressure", "pressure_collision", "stress", "stress_collision", "stress_orientation", "nematic_order", "anisotropy",
+                "anisotropy_collision", "equilibration_time", "max_overlap", "checks"}
     assert promised <= set(summary)
     for name in ("Z", "pressure", "pressure_collision", "nematic_order"):
         if name in summary:
@@ -47,7 +48,8 @@ def complete(folder, scene, columns=SERIES):
             assert (summary[name]["standard_error"] is None) == ("no_standard_error_because" in summary[name])
             assert (summary[name]["n_eff"] < 25) == (summary[name]["standard_error"] is None), name
     for entry in ("mean", "standard_error"):
-        assert [len(row) for row in summary["stress_collision"][entry]] == [3, 3, 3]
+        for name in ("stress", "stress_collision", "stress_orientation"):
+            assert [len(row) for row in summary[name][entry]] == [3, 3, 3]
     record = read(result, "run.json")
     for name in ("version", "git", "compiler", "seed", "exit_reason", "sessions"):
         assert record[name] not in ("", None), name
@@ -183,7 +185,7 @@ def test_only_self_propulsion(tmp_path):
     """Without thermal energy there is no Z; the rods still collide."""
     scene = changed(with_steps(RODS, 300), fluid={"kT": 0.0}, motion={"brownian": False, "self_propulsion": 1.0})
     folder, summary = complete(tmp_path, scene, SERIES + ACTIVE)
-    assert "Z" not in summary and summary["oracles"] == {}
+    assert "Z" not in summary and summary["checks"] == {}
     assert all(math.isnan(value) for value in column(folder / "series.csv", "Z"))
     assert summary["pressure"]["mean"] == pytest.approx(summary["pressure_collision"]["mean"], rel=1e-12)
     assert summary["pressure_collision"]["mean"] > 0
@@ -226,7 +228,7 @@ def test_one_rod(tmp_path):
     _, summary = complete(tmp_path, changed(RODS, rods={"count": 1}, box={"volume_fraction": 0.01}))
     assert summary["Z"]["mean"] == pytest.approx(1.0, abs=1e-12)
     assert summary["pressure_collision"]["mean"] == 0.0
-    assert summary["anisotropy"]["mean"] is None
+    assert summary["anisotropy_collision"]["mean"] is None
 
 
 def test_seed_decides(tmp_path):

@@ -37,7 +37,11 @@ def test_series_and_summary(tmp_path):
     assert np.allclose(rows["stress_springs_xy"], rows["stress_springs_yx"], rtol=0, atol=1e-12)
     assert summary["pressure_springs"]["mean"] == pytest.approx(rows["pressure_springs"].mean())
     assert summary["stress_springs"]["mean"][0][1] == pytest.approx(rows["stress_springs_xy"].mean())
-    assert summary["oracles"] == {}
+    assert summary["checks"] == {}
+    whole = np.array(summary["stress"]["mean"])
+    parts = [np.array(summary[f"stress_{part}"]["mean"]) for part in ("orientation", "collision", "springs")]
+    assert np.allclose(whole, sum(parts) + summary["stress_kinetic"]["mean"] * np.eye(3), rtol=1e-12)
+    assert np.trace(whole) / 3 == pytest.approx(summary["pressure"]["mean"], rel=1e-12)
     described = json.loads((folder / "series.json").read_text())["columns"]
     assert "that of springs" in next(entry for entry in described if entry["name"] == "pressure")["definition"]
 

@@ -1,0 +1,42 @@
+#include "stress_columns.hpp"
+
+#include <algorithm>
+
+#include "jostle/io/series_columns.hpp"
+
+using namespace jostle;
+
+namespace {
+
+void add(std::vector<double>& sum, const std::vector<double>& part, double sign) {
+    for (std::size_t row = 0; row < sum.size(); ++row) sum[row] += sign * part[row];
+}
+
+}  // namespace
+
+Mat3 stress_of(std::span<const double> means) {
+    Mat3 tensor;
+    std::copy(means.begin(), means.begin() + 9, tensor.m.begin());
+    return tensor;
+}
+
+Columns orientation_stress_columns(const SeriesTable& series, std::size_t first) {
+    const Columns six = window_columns(series, first, orientation_stress_column_names);
+    return {six[0], six[1], six[2], six[1], six[3], six[4], six[2], six[4], six[5]};
+}
+
+Columns total_stress_columns(const SeriesTable& series, std::size_t first, bool springs) {
+    Columns total = window_columns(series, first, stress_column_names);
+    Columns parts = orientation_stress_columns(series, first);
+    // n kT, also where the number of rods changes within a row
+    std::vector<double> kinetic = from_row(series.column("pressure"), first);
+    add(kinetic, from_row(series.column("pressure_collision"), first), -1.0);
+    if (springs) {
+        add(kinetic, from_row(series.column("pressure_springs"), first), -1.0);
+        const Columns of_springs = window_columns(series, first, spring_stress_column_names);
+        for (std::size_t k = 0; k < 9; ++k) add(parts[k], of_springs[k], 1.0);
+    }
+    for (std::size_t k = 0; k < 9; ++k) add(total[k], parts[k], 1.0);
+    for (const std::size_t diagonal : {0U, 4U, 8U}) add(total[diagonal], kinetic, 1.0);
+    return total;
+}
