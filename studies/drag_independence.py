@@ -1,6 +1,6 @@
 """The drag does not change the pressure
 
-Equilibrium cannot depend on how rods move through the fluid. Is Z the same for both drag models and two viscosities?
+Equilibrium cannot depend on how rods move through the fluid. Is Z the same for all drag models and two viscosities?
 """
 
 import math
@@ -11,10 +11,10 @@ from runs import Run
 
 BETA, PHI = 5, 0.30
 VARIANTS = {  # name: model, viscosity, kT
+    "capsule": ("capsule", 1.0, 1.0),
+    "capsule, viscosity 20, kT 3": ("capsule", 20.0, 3.0),
     "finite aspect ratio": ("finite_aspect_ratio", 1.0, 1.0),
-    "finite aspect ratio, viscosity 20, kT 3": ("finite_aspect_ratio", 20.0, 3.0),
     "slender body": ("slender_body", 1.0, 1.0),
-    "slender body, viscosity 20, kT 3": ("slender_body", 20.0, 3.0),
 }
 
 

@@ -167,13 +167,13 @@ def test_slender_daughters_of_cells_that_divide_early(tmp_path, division):
     write_scene(tmp_path, changed(scene, growth=growth))
     assert command(tmp_path, "check", "scene.toml").returncode == DONE
     write_scene(tmp_path, changed(scene, growth={**growth, "division_deviation": 0.15}))
-    require_one_line(command(tmp_path, "check", "scene.toml"), "makes daughters as short as L/D = ", "finite_aspect_ratio")
+    require_one_line(command(tmp_path, "check", "scene.toml"), "makes daughters as short as L/D = ", "capsule")
 
 
 @pytest.mark.parametrize("diameters, model, parts", [
-    ((1.0, 3.0), "finite_aspect_ratio", ["growth.division_length = 2.9: is not above what two daughters need", "greater than 3"]),
-    ((1.0, 1.2), "slender_body", ["makes daughters as short as L/D = 0.7083", "finite_aspect_ratio"]),
-    ((1.0, 0.02), "finite_aspect_ratio", ["growth.rate = 0.2: lengthens cells by 0.004", "a tenth of the diameter"]),
+    ((1.0, 3.0), "capsule", ["growth.division_length = 2.9: is not above what two daughters need", "greater than 3"]),
+    ((1.0, 1.2), "slender_body", ["makes daughters as short as L/D = 0.7083", "capsule"]),
+    ((1.0, 0.02), "capsule", ["growth.rate = 0.2: lengthens cells by 0.004", "a tenth of the diameter"]),
 ])
 def test_growth_of_cells_from_a_file(tmp_path, diameters, model, parts):
     """What holds for cells of diameter 1 need not for all of the file."""
@@ -228,7 +228,7 @@ def test_slender_body_of_short_rods(finished_copy):
     scene = changed(RODS, rods={"length": 0.8}, mobility={"model": "slender_body"})
     refuse(finished_copy, scene, f"scene.toml:{place_of(scene_text(scene), 'mobility', 'model')}: mobility.model = "
            '"slender_body": gives rods of L/D = 0.8 a negative drag', "(allowed: L/D greater than 0.824)",
-           'Use model = "finite_aspect_ratio"')
+           'Use model = "capsule"')
     write_scene(finished_copy, changed(scene, rods={"length": 0.83}))
     assert command(finished_copy, "check", "scene.toml").returncode == DONE
 

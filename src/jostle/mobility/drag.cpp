@@ -29,7 +29,33 @@ double bracket(double p, double c_0, double c_1, double c_2, double at_sphere) {
     return std::log(p) + c_0 + c_1 * q + q_squared * (c_2 + a * q_squared);
 }
 
+/// What is added to ln p in the bracket of a capsule: `slender` for p -> infinity, with corrections in 1/(1 + ln p) and
+/// 1/p. The last coefficient makes the bracket `at_sphere` at p = 1.
+struct CapsuleEnds {
+    double slender, logarithmic, first, second, third, at_sphere;
+
+    double bracket(double p) const {
+        const double fourth = at_sphere - (slender + logarithmic + first + second + third);
+        const double q = 1.0 / p, log_p = std::log(p);
+        return log_p + slender + logarithmic / (1.0 + log_p) + q * (first + q * (second + q * (third + q * fourth)));
+    }
+};
+
+constexpr double ln2 = std::numbers::ln2;
+constexpr CapsuleEnds along{2.0 * ln2 - 3.0 / 2.0, -0.5296, 1.8690, -0.9193, 0.3373, 2.0 / 3.0};
+constexpr CapsuleEnds across{2.0 * ln2 - 1.0 / 2.0, -0.3699, 0.9555, -0.1381, -0.1271, 4.0 / 3.0};
+constexpr CapsuleEnds turning{2.0 * ln2 - 11.0 / 6.0, -0.6291, 2.4920, -2.5381, 2.0681, 1.0 / 3.0};
+
 }  // namespace
+
+RodMobility capsule_drag(double length, double diameter, double viscosity) {
+    require_physical(length, diameter, viscosity);
+    const double total = length + diameter;
+    const double p = total / diameter;
+    const double unit = pi * viscosity * total;
+    return {along.bracket(p) / (2.0 * unit), across.bracket(p) / (4.0 * unit),
+            3.0 * turning.bracket(p) / (unit * total * total)};
+}
 
 RodMobility slender_body_drag(double length, double diameter, double viscosity) {
     require_physical(length, diameter, viscosity);
@@ -40,7 +66,7 @@ RodMobility slender_body_drag(double length, double diameter, double viscosity) 
              .value = "slender_body",
              .problem = fmt::format("gives a rod of L/D = {:.4g} negative drag along its axis", length / diameter),
              .allowed = "L/D > sqrt(e)/2 = 0.824",
-             .suggestion = "Use finite_aspect_ratio, which holds for every L/D >= 0",
+             .suggestion = "Use capsule, which holds for every L/D >= 0",
              .place = {}});
     const double unit = 8.0 * pi * viscosity * length;
     return {2.0 * b / unit, (b + 2.0) / unit, 12.0 * (b + 2.0) / (unit * length * length)};

@@ -15,13 +15,29 @@
 
 namespace jostle {
 
+namespace {
+
+using DragOfViscosity = RodMobility (*)(double length, double diameter, double viscosity);
+
+DragOfViscosity drag_of(MobilityModel model) {
+    switch (model) {
+        case MobilityModel::slender_body:
+            return slender_body_drag;
+        case MobilityModel::finite_aspect_ratio:
+            return finite_aspect_ratio_drag;
+        case MobilityModel::capsule:
+            break;
+    }
+    return capsule_drag;
+}
+
+}  // namespace
+
 std::unique_ptr<Mobility> make_mobility(const Scene& scene, const Rods& rods) {
-    const bool slender = scene.mobility.model == MobilityModel::slender_body;
-    const double viscosity = scene.fluid.viscosity;
-    auto mobility = std::make_unique<DragMobility>([slender, viscosity](double length, double diameter) {
-        return slender ? slender_body_drag(length, diameter, viscosity)
-                       : finite_aspect_ratio_drag(length, diameter, viscosity);
-    });
+    auto mobility = std::make_unique<DragMobility>(
+        [drag = drag_of(scene.mobility.model), viscosity = scene.fluid.viscosity](double length, double diameter) {
+            return drag(length, diameter, viscosity);
+        });
     mobility->update(rods);
     return mobility;
 }
@@ -59,7 +75,7 @@ void set_springs(const Scene& scene, const Rods& rods, const Mobility& mobility,
 /// Where noise moves even spheres less in a step than cells grow, contact forces hardly change from step to step, and
 /// may become large. A function of the scene alone, so that a run goes on as it began.
 bool noise_is_weak(const Scene& scene, double time_step) {
-    const RodMobility sphere = finite_aspect_ratio_drag(0.0, scene.rods.diameter, scene.fluid.viscosity);
+    const RodMobility sphere = capsule_drag(0.0, scene.rods.diameter, scene.fluid.viscosity);
     return std::sqrt(2.0 * thermal_energy(scene) * sphere.parallel * time_step) <= scene.growth.rate * time_step;
 }
 

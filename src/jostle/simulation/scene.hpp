@@ -12,7 +12,7 @@ namespace jostle {
 
 enum class UnitSystem { reduced, micro };
 enum class StartKind { random, aligned, lattice, file };
-enum class MobilityModel { slender_body, finite_aspect_ratio };
+enum class MobilityModel { slender_body, finite_aspect_ratio, capsule };
 enum class ContactModel { hard, wca };
 enum class SolverMethod { automatic, projected_sor, bbpgd, adaptive_bb, apgd, minimum_map_newton };
 enum class WarmStarts { automatic, always, never };
@@ -62,7 +62,7 @@ struct Scene {
     } fluid;
 
     struct MobilityTable {
-        MobilityModel model = MobilityModel::finite_aspect_ratio;
+        MobilityModel model = MobilityModel::capsule;
         bool operator==(const MobilityTable&) const = default;
     } mobility;
 

@@ -141,7 +141,9 @@ constexpr auto words(StartKind) {
 }
 constexpr auto words(MobilityModel) {
     return std::to_array<std::pair<std::string_view, MobilityModel>>(
-        {{"slender_body", MobilityModel::slender_body}, {"finite_aspect_ratio", MobilityModel::finite_aspect_ratio}});
+        {{"capsule", MobilityModel::capsule},
+         {"finite_aspect_ratio", MobilityModel::finite_aspect_ratio},
+         {"slender_body", MobilityModel::slender_body}});
 }
 constexpr auto words(DivisionRule) {
     return std::to_array<std::pair<std::string_view, DivisionRule>>(

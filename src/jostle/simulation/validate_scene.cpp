@@ -100,7 +100,7 @@ void check_mobility(const Scene& scene) {
                fmt::format("gives rods of L/D = {} a negative drag: it holds for slender rods only",
                            rounded(aspect_ratio)),
                fmt::format("L/D greater than {:.3f}", slender_limit),
-               "Use model = \"finite_aspect_ratio\", which holds for every L/D");
+               "Use model = \"capsule\", which holds for every L/D");
 }
 
 /// L/D of the shortest cells that divisions of mothers of this diameter make, but for one in a million. Of adders and
@@ -236,7 +236,7 @@ void validate_growth(const Scene& scene, double largest_diameter) {
                            rounded(daughter)),
                fmt::format("greater than {} where nothing deviates",
                            rounded((2.0 * slender_limit + 1.0) * largest_diameter)),
-               "Or use model = \"finite_aspect_ratio\", which holds for every L/D");
+               "Or use model = \"capsule\", which holds for every L/D");
 }
 
 }  // namespace jostle

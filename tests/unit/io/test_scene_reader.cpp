@@ -293,7 +293,7 @@ TEST_CASE("a box or a model that the rods do not allow") {
         {6, "edges = [100, 0.9, 100]", 6, 9, "box.edges", "[100, 0.9, 100]", "edge y is 0.9", "at least 1"},
         {6, "volume_fraction = 0.2\nshape = [1, 1, 1e-3]", 6, 19, "box.volume_fraction", "0.2", "thinner", "shape"},
         {11, "diameter = 10\n[mobility]\nmodel = \"slender_body\"", 13, 9, "mobility.model", "\"slender_body\"",
-         "L/D = 0.5 a negative drag", "finite_aspect_ratio"},
+         "L/D = 0.5 a negative drag", "capsule"},
     };
     for (const Case& c : cases) check(c);
 }

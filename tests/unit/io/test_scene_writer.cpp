@@ -164,7 +164,7 @@ TEST_CASE("every key that means something is written, with its unit") {
                              "start = \"random\"\n",
                              "viscosity = 1.0  # mu\n",
                              "kT = 1.0  # kT\n",
-                             "model = \"finite_aspect_ratio\"\n",
+                             "model = \"capsule\"\n",
                              "brownian = true\n",
                              "self_propulsion = 0.0  # kT D-2 mu-1\n",
                              "brownian_correction = true\n",
