@@ -15,7 +15,7 @@ namespace {
 
 constexpr int id_bits = 53;           ///< ids stay exact as double, as which tables hold them
 constexpr double least_factor = 0.2;  ///< of a drawn rate or threshold to its mean
-constexpr double least_share = 1e-9;  ///< of its rate, by which a stalled cell grows: it must find back
+constexpr double least_share = 1e-9;  ///< of its rate, by which a stalled cell grows: (5.2) divides by it
 
 double noisy_factor(double deviation, double normal) {
     return std::max(least_factor, 1.0 + deviation * normal);
@@ -78,7 +78,12 @@ void Growth::lengthen(Rods& rods, double time_step) const {
                  [&](std::size_t i) { rods.length[i] += rods.cycle[i].share * rods.cycle[i].growth_rate * time_step; });
 }
 
-void Growth::slow_down(Rods& rods, std::span<const std::uint32_t> rows, std::span<const ContactForce> forces) const {
+double Growth::stall_memory(double diameter) const {
+    return law_.stall_memory.value_or(automatic_memory * 0.5 * (law_.division_length + diameter) / law_.rate);
+}
+
+void Growth::slow_down(Rods& rods, std::span<const std::uint32_t> rows, std::span<const ContactForce> forces,
+                       double time_step) const {
     if (!law_.stall_force) return;
     std::vector<double> compression(rods.size(), 0.0);
     parallel_for(rows.size(), [&](std::size_t k) {
@@ -87,7 +92,9 @@ void Growth::slow_down(Rods& rods, std::span<const std::uint32_t> rows, std::spa
     });
     parallel_for(rods.size(), [&](std::size_t i) {
         double& share = rods.cycle[i].share;
-        share /= share + std::max(0.0, compression[i] / *law_.stall_force);
+        const double weight = -std::expm1(-time_step / stall_memory(rods.diameter[i]));
+        const double relative = std::max(0.0, compression[i] / *law_.stall_force);
+        share *= (share + weight * (1.0 - share)) / (share + weight * relative);
         share = std::max(share, least_share);
     });
 }

@@ -37,9 +37,11 @@ public:
     /// One step of growth: the cell's rate dt, times the share of it that compression leaves.
     void lengthen(Rods& rods, double time_step) const;
 
-    /// How much compression slows the cells (dL/dt = rate (1 - F/F_stall), at least 0; theory, eq. 5.2). `rows`: of the
-    /// rods with contacts; `forces`: (rows.size()) on them; the compression is F = -lever.n/L.
-    void slow_down(Rods& rods, std::span<const std::uint32_t> rows, std::span<const ContactForce> forces) const;
+    /// How much compression slows the cells: dL/dt = rate (1 - F/F_stall), at least 0, with F averaged over
+    /// `stall_memory` (theory, eq. 5.2). `rows`: of the rods with contacts; `forces`: (rows.size()) on them in this
+    /// step; the compression by them is -lever.n/L.
+    void slow_down(Rods& rods, std::span<const std::uint32_t> rows, std::span<const ContactForce> forces,
+                   double time_step) const;
 
     /// Whether cells divide and die after the step with this number.
     bool is_due(std::uint64_t step) const { return step % law_.division_every == 0; }
@@ -53,6 +55,7 @@ private:
                       std::uint64_t divisions) const;
     bool divides(const Rods& rods, std::size_t row, std::uint64_t step, double time_step) const;
     bool dies(std::uint64_t id, std::uint64_t step, double time_step) const;
+    double stall_memory(double diameter) const;
     LineageEvent split(Rods& rods, std::size_t row, const Box& box, std::uint64_t step) const;
 
     GrowthLaw law_;

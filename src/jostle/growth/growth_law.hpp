@@ -15,6 +15,10 @@ enum class DivisionRule {
 /// Where the new one of two daughters swims.
 enum class DaughterDirection { same, opposite };
 
+/// `stall_memory` of a law that names none: this part of the time from birth to division, (division_length + D)/(2
+/// rate).
+inline constexpr double automatic_memory = 0.01;
+
 /// How cells grow, divide and die. Means are those of the sizer: adder and timer have the same cycle without noise,
 /// from (division_length - D)/2 at birth to division_length, in (division_length + D)/(2 rate).
 struct GrowthLaw {
@@ -24,9 +28,10 @@ struct GrowthLaw {
     double division_deviation = 0.0;  ///< relative standard deviation of what a cell measures, drawn at birth
     DivisionRule division = DivisionRule::sizer;
     DaughterDirection daughters = DaughterDirection::same;
-    std::optional<double> stall_force;  ///< compression along the axis at which a cell stops growing; none: never
-    double death_rate = 0.0;            ///< of every cell (1/time)
-    std::uint64_t division_every = 10;  ///< steps between looks at who divides and who dies
+    std::optional<double> stall_force;   ///< compression along the axis at which a cell stops growing; none: never
+    std::optional<double> stall_memory;  ///< over which the compression is averaged (time); none: `automatic_memory`
+    double death_rate = 0.0;             ///< of every cell (1/time)
+    std::uint64_t division_every = 10;   ///< steps between looks at who divides and who dies
 
     bool operator==(const GrowthLaw&) const = default;
 };

@@ -17,7 +17,7 @@ struct CellCycle {
     double division_at = 0.0;      ///< the length, or with a timer the age, at which it divides
     std::uint64_t birth_step = 0;  ///< the step after which it was born
     std::uint64_t divisions = 0;   ///< in its line of mothers since the start
-    double share = 1.0;            ///< of its rate that it grew by after the last step: less where it is compressed
+    double share = 1.0;            ///< of its rate that it grows by: 1 less its mean compression over the stall force
 };
 
 /// The rods of an assembly: a structure of arrays, one row a rod.

@@ -99,6 +99,7 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("growth", "division_deviation", scene.growth.division_deviation, Quantity{dim::none, {0.0, 0.5}});
     visit("growth", "daughters", scene.growth.daughters, Plain{});
     visit("growth", "stall_force", scene.growth.stall_force, Quantity{dim::force, positive});
+    visit("growth", "stall_memory", scene.growth.stall_memory, Quantity{dim::time, positive, true});
     visit("growth", "death_rate", scene.growth.death_rate, Quantity{dim::rate, zero_or_positive});
     visit("growth", "division_every", scene.growth.division_every, Count{1, most_steps});
     visit("springs", "file", scene.springs.file, Plain{});

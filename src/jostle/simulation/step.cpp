@@ -84,7 +84,7 @@ StepReport Simulation::step() {
     }
     measure_spring_stress(report);
     measure_stress(report);
-    if (growth_) growth_->slow_down(rods_, solution_.rods, solution_.forces);
+    if (growth_) growth_->slow_down(rods_, solution_.rods, solution_.forces, settings_.time_step);
     timer.finish(StepPhase::measure_stress);
     advance();
     if (growth_) {

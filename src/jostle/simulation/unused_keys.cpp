@@ -78,10 +78,13 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
                                 "solver.step_rule", "solver.residual", "solver.tolerance", "solver.max_iterations"})
             unused.push_back({key, with_model + ": there is no contact problem", "Remove it"});
     if (scene.growth.rate == 0.0)
-        for (const char* key :
-             {"growth.rate_deviation", "growth.division", "growth.division_length", "growth.division_deviation",
-              "growth.daughters", "growth.stall_force", "growth.death_rate", "growth.division_every"})
+        for (const char* key : {"growth.rate_deviation", "growth.division", "growth.division_length",
+                                "growth.division_deviation", "growth.daughters", "growth.stall_force",
+                                "growth.stall_memory", "growth.death_rate", "growth.division_every"})
             unused.push_back({key, "is not used without growth.rate", "Add rate under [growth], or remove it"});
+    else if (!scene.growth.stall_force)
+        unused.push_back({"growth.stall_memory", "is not used without growth.stall_force: nothing stalls",
+                          "Set stall_force, or remove stall_memory"});
     if (scene.output.trajectory_every == 0)
         unused.push_back({"output.stress_per_rod", "is not used without output.trajectory_every: there are no frames",
                           "Set trajectory_every, or remove it"});

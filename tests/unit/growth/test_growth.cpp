@@ -125,6 +125,7 @@ TEST_CASE("direction of the daughter in front") {
 TEST_CASE("compression slows growth, tension does not hasten it") {
     GrowthLaw stalled = law();
     stalled.stall_force = 4.0;
+    stalled.stall_memory = 0.3;  // three steps
     const Growth growth(stalled, 1);
     Rods rods = cells(3);
     growth.found(rods);
@@ -136,7 +137,7 @@ TEST_CASE("compression slows growth, tension does not hasten it") {
             const std::vector<ContactForce> forces = {{{}, -compression * rods.length[0] * rods.axis[0]},
                                                       {{}, 9.0 * rods.length[1] * rods.axis[1]}};
             before = rods.length;
-            growth.slow_down(rods, rows, forces);
+            growth.slow_down(rods, rows, forces, 0.1);
             growth.lengthen(rods, 0.1);
         }
         return std::vector{rods.length[0] - before[0], rods.length[1] - before[1], rods.length[2] - before[2]};
@@ -145,10 +146,41 @@ TEST_CASE("compression slows growth, tension does not hasten it") {
     CHECK(slowed[0] == doctest::Approx(0.1 * 0.75));
     CHECK(slowed[1] == doctest::Approx(0.1));
     CHECK(slowed[2] == doctest::Approx(0.1));
-    CHECK(lengthen(5.0, 100)[0] < 1e-8);                 // stalled
-    CHECK(lengthen(0.0, 1)[0] == doctest::Approx(0.1));  // free again
-    CHECK(lengthen(5.0, 100)[0] < 1e-8);
-    CHECK(lengthen(3.0, 100)[0] == doctest::Approx(0.1 * 0.25));  // less pressed on
+    CHECK(lengthen(5.0, 200)[0] < 1e-8);                                          // stalled
+    CHECK(lengthen(0.0, 3)[0] == doctest::Approx(0.1 * (1.0 - std::exp(-1.0))));  // free again, for the memory time
+    CHECK(lengthen(5.0, 200)[0] < 1e-8);
+    CHECK(lengthen(3.0, 200)[0] == doctest::Approx(0.1 * 0.25));  // less pressed on
+}
+
+TEST_CASE("what slows a cell is its mean compression over the memory time, not that of one step") {
+    // One step in ten presses ten times as hard. The share may be off by w <F^2>/(share F_stall <F>) of the force.
+    GrowthLaw stalled = law();
+    stalled.stall_force = 4.0;
+    stalled.stall_memory = 100.0;
+    const Growth growth(stalled, 1);
+    Rods rods = cells(1);
+    growth.found(rods);
+    const double time_step = 0.1, weight = time_step / *stalled.stall_memory;
+    double sum = 0.0;
+    for (int step = 0; step < 20000; ++step) {
+        const double compression = step % 10 == 0 ? 10.0 : 0.0;
+        const std::vector<ContactForce> forces = {{{}, -compression * rods.length[0] * rods.axis[0]}};
+        growth.slow_down(rods, std::vector<std::uint32_t>{0}, forces, time_step);
+        if (step >= 10000) sum += rods.cycle[0].share / 10000.0;
+    }
+    CHECK(std::fabs(sum - 0.75) < 0.25 * weight * 10.0 / (0.75 * 4.0));
+}
+
+TEST_CASE("the memory is a hundredth of the time from birth to division unless the scene says otherwise") {
+    // (6 + 1)/2 = 3.5 of length at rate 1: 0.035. After a time of it without force, 1/e of the compression is left.
+    GrowthLaw stalled = law();
+    stalled.stall_force = 4.0;
+    const Growth growth(stalled, 1);
+    Rods rods = cells(1);
+    growth.found(rods);
+    rods.cycle[0].share = 0.25;
+    growth.slow_down(rods, std::vector<std::uint32_t>{0}, std::vector<ContactForce>(1), 0.035);
+    CHECK(rods.cycle[0].share == doctest::Approx(1.0 - 0.75 * std::exp(-1.0)));
 }
 
 // Length at birth l, at division d, after many generations of one line with noise delta in what is measured:

@@ -141,6 +141,7 @@ TEST_CASE("cells that press on each other grow by what the force leaves them, at
         scene.rods.count = 12;
         scene.growth.division_length = 60.0;
         scene.growth.stall_force = stall_force;
+        scene.growth.stall_memory = 0.01;  // 20 of it: the share has forgotten where it began
         Rods rods;
         for (std::uint64_t id = 0; id < 12; ++id)
             rods.push_back(id, {500.0 + 4.0 * static_cast<double>(id), 500, 500}, {1, 0, 0}, 3.0, 1.0);
