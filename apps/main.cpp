@@ -1,7 +1,11 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 
 #include "check_command.hpp"
 #include "exit_code.hpp"
+#include "frames_so_far.hpp"
+#include "jostle/error/input_error.hpp"
 #include "presentation_command.hpp"
 #include "run_command.hpp"
 #include "standard_streams.hpp"
@@ -59,6 +63,18 @@ CLI::App* add_stress_command(CLI::App& app, StressOptions& options) {
 }
 
 /// Reads the command line, and does what it says.
+/// What `report` draws in the place of trajectory.h5; empty: nothing. What is damaged is said, and the page made
+/// without it.
+std::string frames_of(const std::string& folder) {
+    try {
+        const std::optional<int> frames = frames_so_far(folder);
+        return frames ? fmt::format("/dev/fd/{}", *frames) : "";
+    } catch (const jostle::InputError& error) {
+        fmt::print(stderr, "jostle: {}\n", error.what());
+        return "";
+    }
+}
+
 ExitCode obey(int argc, char** argv) {
     CLI::App app{"jostle: collision stress of assemblies of rods"};
     app.set_version_flag("--version",
@@ -100,11 +116,14 @@ ExitCode obey(int argc, char** argv) {
     exporter->add_option("--to", format, "gsd (OVITO, freud), vtk (ParaView) or xyz (OVITO, ASE)")->required();
     exporter->add_option("--out", out, "file or, for vtk, folder; default: in the folder of the run");
 
-    std::string width = "1600";
-    CLI::App* report = app.add_subcommand("report", "Make a page that shows a run: plots, averages, view of the rods");
+    std::string width = "1600", megabytes = "20";
+    CLI::App* report =
+        app.add_subcommand("report", "Make a page that shows a run: rods to turn, plots to zoom, averages");
     report->add_option("folder", folder, "folder of a run")->required();
     report->add_option("--out", out, "folder for the page and its pictures; default: report in the folder of the run");
-    report->add_option("--width", width, "width of the view of the rods, in pixels")->capture_default_str();
+    report->add_option("--width", width, "width of the still picture of the rods, in pixels")->capture_default_str();
+    report->add_option("--megabytes", megabytes, "room for the rods in the page; of more frames it holds some")
+        ->capture_default_str();
 
     StressOptions stress_options;
     CLI::App* stress = add_stress_command(app, stress_options);
@@ -120,7 +139,8 @@ ExitCode obey(int argc, char** argv) {
     if (stress->parsed()) return stress_command(stress_options);
     if (verify->parsed()) return verify_command(folder);
     if (exporter->parsed()) return presentation_command("export", {"--to=" + format, "--out=" + out, "--", folder});
-    return presentation_command("report", {"--width=" + width, "--out=" + out, "--", folder});
+    return presentation_command("report", {"--width=" + width, "--megabytes=" + megabytes,
+                                           "--frames=" + frames_of(folder), "--out=" + out, "--", folder});
 }
 
 }  // namespace

@@ -1,73 +1,147 @@
-"""One HTML page with everything in it: the view of the rods, the averages, the plots, and how the run was made."""
+"""One HTML page with everything in it: verdict, numbers, rods that turn, plots, and how the run was made.
+
+It can be read as it is; the programs inside it replace pictures by what moves, where the browser can.
+"""
 
 import base64
 import html
 import math
 
-from run_folder import readable_unit, superscript
+import viewer_parts
+from units import superscript, with_unit
+from verdict import expected_range, verdict
 
 MARK = '<meta name="generator" content="jostle report">'
 NAME = "report.html"
+# Nothing is fetched, from nowhere.
+POLICY = ("default-src 'none'; script-src 'unsafe-inline' data:; style-src 'unsafe-inline'; img-src data: blob:; "
+          "connect-src 'none'")
 AVERAGES = {"Z": "compressibility factor Z", "pressure": "pressure", "pressure_collision": "collision pressure",
             "pressure_springs": "pressure of springs", "pressure_active": "active pressure",
             "nematic_order": "nematic order S", "anisotropy": "stress anisotropy",
             "anisotropy_collision": "anisotropy of the collision stress"}
 CHECKS = {"total_stress_ratio": "stress along/across the director", "collision_stress_ratio": "collision stress along/across the director"}
-STYLE = """
-body { font: 16px/1.5 sans-serif; color: #222; max-width: 76rem; margin: 2rem auto; padding: 0 1.2rem; }
-h1 { font-size: 1.7rem; margin-bottom: .2rem; } h2 { font-size: 1.2rem; margin-top: 2.2rem; }
-.subtitle { color: #555; margin-top: 0; } img { max-width: 100%; height: auto; }
-.plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(26rem, 1fr)); gap: 1rem; }
-table { border-collapse: collapse; }
-th, td { text-align: left; padding: .25rem 1.2rem .25rem 0; border-bottom: 1px solid #ddd; }
-td.number { text-align: right; font-variant-numeric: tabular-nums; } th.number { text-align: right; }
-.tables { display: flex; flex-wrap: wrap; gap: 1rem 4rem; align-items: flex-start; }
-.warning { border-left: 5px solid #d55e00; background: #fdf1e7; padding: .5rem 1rem; }
-.note { color: #555; } pre { background: #f5f5f5; padding: .8rem; overflow-x: auto; font-size: .85rem; }
-@media print { .plots { grid-template-columns: 1fr 1fr; } }
-"""
+KEY_AVERAGES = {"Z": "Z", "pressure": "pressure", "pressure_active": "active pressure", "nematic_order": "nematic order S"}
+SIGNS = {"good": "✓", "bad": "!", "open": "·"}
 
 
-def text(run, folder, pictures, view, notes):
-    """pictures: (file name, title); view: (file name, caption) or None; notes: what the page could not show."""
+def text(run, folder, curves, view, rods, tiles, notes):
+    """curves: of the plots; view: (file name, caption) of the still or None; rods: of the page, or None; tiles: numbers that
+    come first, (words, number, unit, note); notes: what the page could not show."""
+    plotting = viewer_parts.plotting()
+    notes = list(notes)
+    if plotting is None:
+        notes.append(viewer_parts.MISSING)
+    title = html.escape(run.title)
     parts = [f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">{MARK}\n'
-             f"<title>{html.escape(run.title)}</title><style>{STYLE}</style></head><body>\n",
-             f"<h1>{html.escape(run.title)}</h1>\n<p class=\"subtitle\">{html.escape(subtitle(run))}</p>\n"]
-    parts += [f'<p class="warning">{html.escape(warning)}</p>\n' for warning in warnings(run)]
-    if view:
-        caption = f'<span class="note">{html.escape(view[1])}</span>'
-        parts.append(f"<p>{embedded(folder / view[0], view[1])}<br>{caption}</p>\n")
-    parts += [f'<p class="note">{html.escape(note)}</p>\n' for note in notes]
-    if run.summary:
-        parts += ['<h2>Averages</h2>\n<div class="tables">', table(AVERAGE_HEADS, average_rows(run)),
-                  table(("Stress", "", "", ""), stress_rows(run, "stress")),
-                  table(("Collision stress", "", "", ""), stress_rows(run, "stress_collision")), "</div>\n", reasons(run)]
-        parts += checks(run)
-    parts += ["<h2>Over time</h2>\n<div class=\"plots\">\n"]
-    parts += [f"<div>{embedded(folder / name, title)}</div>\n" for name, title in pictures]
-    parts += ["</div>\n<h2>The run</h2>\n", table(("", ""), facts(run)),
-              f"<details><summary>The scene with every default</summary>"
-              f"<pre>{html.escape((run.folder / 'resolved.toml').read_text())}</pre></details>\n</body></html>\n"]
+             '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+             f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">\n'
+             f"<title>{title}</title>\n<style>{viewer_parts.style()}</style>\n{plotting or ''}</head>\n<body>\n"
+             f'<header><h1>{title}</h1><p class="subtitle">{html.escape(subtitle(run))}</p></header>\n',
+             f'<main>\n<div class="first">\n{figure(folder, view, rods)}<aside>\n{verdict_list(run)}{tile_list(tiles)}'
+             f"{notes_list(notes)}</aside>\n</div>\n",
+             plots(folder, curves), averages(run), the_run(run), "</main>\n"]
+    told = {"time": dict(zip(("label", "unit"), ("time", run.in_unit("time")[1]))), "curves": [told_curve(c) for c in curves]}
+    if rods:
+        told.update(rods.told)
+        parts.append(viewer_parts.packed(rods.elements))
+    parts += [viewer_parts.described(told), viewer_parts.modules(), "</body></html>\n"]
     return "".join(parts)
 
 
 def subtitle(run):
     last = {name: values[-1] for name, values in run.series.items()}
-    time = " ".join(part for part in (f"{last['time']:.4g}", run.unit("time")) if part)
-    return f"{last['N']:.0f} rods at volume fraction {last['phi']:.4g}, time {time}, {last['step']:.0f} steps"
+    factor, unit = run.in_unit("time")
+    time = " ".join(part for part in (f"{factor * last['time']:.4g}", unit) if part)
+    if run.is_colony:
+        return f"{last['N']:.0f} cells from {run.series['N'][0]:.0f}, time {time}, {last['step']:.0f} steps"
+    kind = "rods" if run.scene["rods"].get("length", 1.0) != 0 else "spheres"
+    return f"{last['N']:.0f} {kind} at volume fraction {last['phi']:.4g}, time {time}, {last['step']:.0f} steps"
 
 
-def warnings(run):
-    if run.record.get("exit_reason") == "extinct":
-        return ["All cells have died: there are no averages."]
-    if not run.summary:
-        return ["The run is not done: there are no averages yet."]
-    if run.summary.get("equilibrated") is False:
-        return ["Equilibrium was not reached: use none of the averages."]
-    return []
+def verdict_list(run):
+    lines = "".join(f'<li class="{state}"><i>{SIGNS[state]}</i><div><b>{html.escape(words)}</b> '
+                    f"<span>{html.escape(more)}</span></div></li>\n" for state, words, more in verdict(run))
+    return f'<ul class="verdict">\n{lines}</ul>\n'
+
+
+def tile_list(tiles):
+    made = "".join(f'<div class="tile"><dt>{html.escape(words)}</dt><dd>{html.escape(number)} '
+                   f"<small>{html.escape(unit)}</small></dd>{'<p>' + html.escape(note) + '</p>' if note else ''}</div>\n"
+                   for words, number, unit, note in tiles)
+    return f'<dl class="tiles">\n{made}</dl>\n' if made else ""
+
+
+def average_tiles(run):
+    """The most important averages, with their errors."""
+    for name, words in KEY_AVERAGES.items():
+        average = run.summary.get(name)
+        if average and average["mean"] is not None:
+            factor, unit = run.readable(average.get("unit", "1"))
+            mean, error = factor * average["mean"], average.get("standard_error")
+            note = "no error bar" if error is None else f"{average['n_eff']:.0f} independent samples"
+            yield (words, number(mean, error and factor * error) + ("" if error is None else f" ± {factor * error:.2g}"), unit, note)
+
+
+def notes_list(notes):
+    return "".join(f'<p class="note">{html.escape(note)}</p>\n' for note in notes)
+
+
+def figure(folder, view, rods):
+    """The still, which the rods that turn replace."""
+    if not view and not rods:
+        return ""
+    still = embedded(folder / view[0], view[1]) if view else \
+        '<p class="no-still">The rods turn in a browser that has WebGL 2 and runs the programs of this page.</p>'
+    caption = f'<figcaption class="still-caption">{html.escape(view[1])}</figcaption>' if view else ""
+    return f'<figure id="view"><div class="stage">{still}</div>{caption}</figure>\n'
+
+
+def plots(folder, curves):
+    def cell(curve):
+        note = f'<p class="curve-note">{html.escape(curve.note)}</p>' if curve.note else ""
+        return (f'<section class="plot" data-curve="{curve.name}"><h3>{html.escape(curve.title)}</h3>'
+                f'{embedded(folder / (curve.name + ".png"), curve.title)}{note}</section>\n')
+
+    first = "".join(cell(curve) for curve in curves if not curve.aside)
+    aside = "".join(cell(curve) for curve in curves if curve.aside)
+    parts = [f'<h2>Over time</h2>\n<div class="plots">\n{first}</div>\n' if first else ""]
+    if aside:
+        parts.append(f'<details class="aside"><summary>How the steps went</summary><div class="plots">\n{aside}</div></details>\n')
+    return "".join(parts)
+
+
+def told_curve(curve):
+    """A curve as the programs of the page take it, in at most as many parts as a screen has columns."""
+    from plots import of_parts
+
+    time, low, middle, high = of_parts(curve, most=1500)
+    ranged = low is not None
+    rows = [[_number(t), [_number(a), _number(b), _number(c)] if ranged else _number(b)]
+            for t, a, b, c in zip(time, low if ranged else middle, middle, high if ranged else middle)]
+    told = {"name": curve.name, "title": curve.title, "label": with_unit(curve.label, curve.unit), "unit": curve.unit,
+            "rows": rows, "ranged": ranged, "logarithmic": curve.logarithmic, "from_zero": curve.from_zero,
+            "whole": curve.whole}
+    if curve.average:
+        told.update(mean=curve.average["mean"], error=curve.average.get("standard_error"),
+                    window=[float(curve.time[row]) for row in curve.window])
+    return told
+
+
+def _number(value):
+    return float(f"{value:.6g}") if math.isfinite(value) else None
 
 
 AVERAGE_HEADS = ("Quantity", "mean", "standard error", "independent samples", "unit")
+
+
+def averages(run):
+    if not run.summary or run.is_colony:
+        return ""
+    return "".join(['<h2>Averages</h2>\n<div class="tables">', table(AVERAGE_HEADS, average_rows(run)),
+                    table(("Stress", "", "", ""), stress_rows(run, "stress")),
+                    table(("Collision stress", "", "", ""), stress_rows(run, "stress_collision")), "</div>\n", reasons(run),
+                    checks(run)])
 
 
 def average_rows(run):
@@ -76,8 +150,9 @@ def average_rows(run):
         if average and average["mean"] is not None:
             error = average.get("standard_error")
             n_eff = average.get("n_eff")
-            yield (words, number(average["mean"], error), "–" if error is None else f"{error:.2g}",
-                   "–" if n_eff is None else f"{n_eff:.0f}", readable_unit(average.get("unit", "1")))
+            factor, unit = run.readable(average.get("unit", "1"))
+            yield (words, number(factor * average["mean"], error and factor * error),
+                   "–" if error is None else f"{factor * error:.2g}", "–" if n_eff is None else f"{n_eff:.0f}", unit)
     yield ("volume fraction in the end", f"{run.summary['volume_fraction']:.5g}", "", "", "")
     yield ("largest overlap of the run", f"{run.summary['max_overlap']:.2e}", "", "", "D")
 
@@ -86,47 +161,56 @@ def stress_rows(run, name):
     stress = run.summary.get(name)
     if not stress:
         return
-    largest = max(abs(mean) for row in stress["mean"] for mean in row)
+    factor, unit = run.readable(stress.get("unit", "1"))
+    largest = max(abs(factor * mean) for row in stress["mean"] for mean in row)
     power = math.floor(math.log10(largest)) if largest > 0.0 else 0
     power = 0 if -2 <= power <= 3 else power
-    scale = 10.0**power
+    scale = 10.0**power / factor
     for row, axis in enumerate("xyz"):
         yield (f"{axis}x, {axis}y, {axis}z", *(
             number(mean / scale, error and error / scale) + ("" if error is None else f" ± {error / scale:.1g}")
             for mean, error in zip(stress["mean"][row], stress["standard_error"][row])))
-    yield ("unit", (f"10{superscript(power)} " if power else "") + readable_unit(stress.get("unit", "1")), "", "")
+    yield ("unit", (f"10{superscript(power)} " if power else "") + unit, "", "")
 
 
 def checks(run):
     """What is measured beside what equilibrium has, where a run is in equilibrium."""
     rows = [check_row(words, run.summary["checks"][name]) for name, words in CHECKS.items() if name in run.summary.get("checks", {})]
-    return ["<h2>Checks</h2>\n", table(("Ratio", "measured", "standard error", "in equilibrium", ""), rows)] if rows else []
+    return "<h2>Checks</h2>\n" + table(("Ratio", "measured", "standard error", "in equilibrium", ""), rows) if rows else ""
 
 
 def check_row(words, check):
     measured, error = check["measured"]["mean"], check["measured"]["standard_error"]
-    least, most = (check["in_equilibrium"][end] for end in ("from", "to"))
-    expected = "–" if least is None or most is None else " to ".join(dict.fromkeys(f"{end:.5g}" for end in (least, most)))
     verdict = {True: "agrees", False: "disagrees", None: "no error bar"}[check["agree"]]
-    return (words, "–" if measured is None else number(measured, error), "–" if error is None else f"{error:.2g}", expected, verdict)
+    return (words, "–" if measured is None else number(measured, error), "–" if error is None else f"{error:.2g}",
+            expected_range(check), verdict)
 
 
 def reasons(run):
     """Why some averages have no error bar."""
-    missing = [f"{words}: {run.summary[name]['no_standard_error_because']}" for name, words in AVERAGES.items()
-               if run.summary.get(name, {}).get("no_standard_error_because")]
-    if not missing:
-        return ""
-    return f'<p class="note">No error bar. {html.escape(" ".join(missing))}</p>\n'
+    missing = {}
+    for name, words in AVERAGES.items():
+        reason = run.summary.get(name, {}).get("no_standard_error_because")
+        if reason:
+            missing.setdefault(reason, []).append(words)
+    return "".join(f'<p class="note">No error bar of {html.escape(", ".join(words))}: {html.escape(reason)}</p>\n'
+                   for reason, words in missing.items())
+
+
+def the_run(run):
+    scene = (run.folder / "resolved.toml").read_text()
+    return ('<h2>The run</h2>\n<div class="tables">' + table(("", ""), facts(run)) + "</div>\n"
+            f"<details><summary>The scene with every default</summary><pre>{html.escape(scene)}</pre></details>\n")
 
 
 def facts(run):
     record = run.record
     sessions = record.get("sessions", [])
+    factor, unit = run.in_unit("time")
     yield ("program", f"{record.get('program', '')} {record.get('version', '')} {record.get('git', '')}".strip())
     yield ("compiler", record.get("compiler", ""))
     yield ("seed", str(record.get("seed", "")))
-    yield ("time step", " ".join((f"{record.get('time_step', 0.0):.4g}", run.unit("time"))))
+    yield ("time step", " ".join((f"{factor * record.get('time_step', 0.0):.4g}", unit)))
     if sessions:
         yield ("processor", sessions[-1].get("processor", ""))
         yield ("threads", str(sessions[-1].get("threads", "")))
@@ -151,7 +235,7 @@ def table(heads, rows):
         columns = [""] * len(heads)
     for row in rows:
         lines.append("".join(f"<td{kind}>{html.escape(cell)}</td>" for kind, cell in zip(columns, row)))
-    return "<table>" + "".join(f"<tr>{line}</tr>\n" for line in lines) + "</table>\n"
+    return '<div class="wide"><table>' + "".join(f"<tr>{line}</tr>\n" for line in lines) + "</table></div>\n"
 
 
 def embedded(path, title):

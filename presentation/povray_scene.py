@@ -93,7 +93,7 @@ class Camera:
         if np.dot(np.cross(across, away), up) < 0.0:
             away = -away  # a right-handed set: the picture is no mirror image
         towards = _unit(0.42 * across - 1.0 * away + 0.42 * up)  # from the box to the viewer
-        self.direction = -towards
+        self.direction, self.pole = -towards, up
         self.right = _unit(np.cross(self.direction, up))
         self.up = np.cross(self.right, self.direction)
         self._fit(frame)

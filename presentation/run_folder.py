@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
+import units
 from refusal import Refusal
 
 SIGNS = ("run.json", "resolved.toml", "checkpoint", "trajectory.h5", "series.csv")
-RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 @dataclass
@@ -31,9 +31,27 @@ class Run:
     def propelled(self):
         return self.scene.get("motion", {}).get("self_propulsion", 0) != 0
 
-    def unit(self, column):
-        """Of a column, to be read by people; empty for a pure number."""
-        return readable_unit(self.columns.get(column, {}).get("unit", "1"))
+    @property
+    def grows(self):
+        return self.scene.get("growth", {}).get("rate", 0) != 0
+
+    @property
+    def is_colony(self):
+        """Whether cells multiply: then there is no state that lasts, and nothing to average."""
+        number = self.series["N"]
+        return self.grows and number[-1] >= 1.5 * number[0]
+
+    def in_unit(self, column):
+        """(factor, unit) by which people read a column of the series: factor times the number is in the unit."""
+        return self.readable(self.columns.get(column, {}).get("unit", "1"))
+
+    def readable(self, unit):
+        """The same of a unit as the files write it."""
+        return units.readable(unit, self.scene)
+
+    def table(self, name):
+        """Columns of another table of the run, as those of the series; none if it has no row."""
+        return _read(self.folder / name, lambda text: _columns_of_text(text, empty=True))
 
 
 def require_run_folder(folder):
@@ -55,31 +73,17 @@ def read_run(folder):
                record=_read(folder / "run.json", json.loads))
 
 
-def readable_unit(unit):
-    """pN um-2 as it is printed: pN µm⁻². The unit 1 is none."""
-    if unit == "1":
-        return ""
-    factors = []
-    for factor in unit.split():
-        name = factor.rstrip("-0123456789")
-        power = factor[len(name):]
-        name = {"mu": "µ", "um": "µm"}.get(name, name)
-        factors.append(name + superscript(power))
-    return " ".join(factors)
-
-
-def superscript(number):
-    return str(number).translate(RAISED)
-
-
-def _columns_of_text(text):
+def _columns_of_text(text, empty=False):
     lines = text.splitlines(keepends=True)
     if lines and not lines[-1].endswith("\n"):
         lines.pop()  # a run that goes on, or was killed, may be within a row
+    names = lines[0].strip().split(",") if lines else []
     if len(lines) < 2:
+        if empty:
+            return {name: np.empty(0) for name in names}
         raise ValueError("it has no row yet")
     rows = np.loadtxt(io.StringIO("".join(lines[1:])), delimiter=",", ndmin=2)
-    return dict(zip(lines[0].strip().split(","), rows.T, strict=True))
+    return dict(zip(names, rows.T, strict=True))
 
 
 def _read(path, parse):

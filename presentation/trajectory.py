@@ -1,6 +1,7 @@
 """The rods of a trajectory.h5, frame by frame."""
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -23,9 +24,14 @@ class Frame:
     axis: np.ndarray      # (N, 3) unit vector
     length: np.ndarray    # (N) without the caps
     diameter: np.ndarray  # (N)
+    pressure: np.ndarray = None  # (N) of the collision stress of each rod, where it was kept; NaN where it is not known
 
     def __len__(self):
         return len(self.id)
+
+    def unwrapped(self):
+        """(N, 3) centres as if no rod had been taken back into the box."""
+        return self.centre + self.image * self.edges
 
     def ends(self):
         """Centres of the two caps, (N, 2, 3): tail and head."""
@@ -34,13 +40,14 @@ class Frame:
 
 
 class Trajectory:
-    """A file that is open for reading; iteration gives its frames."""
+    """A file that is open for reading; iteration gives its frames. `path`: a file in place of that of the folder."""
 
-    def __init__(self, folder):
-        self.path = folder / "trajectory.h5"
+    def __init__(self, folder, path=None):
+        self.path = Path(path) if path else folder / "trajectory.h5"
         if not self.path.exists():
             raise _no_trajectory(folder)
-        self._rods = self._read(lambda: h5py.File(self.path, "r")["particles/rods"])
+        # One in place of the folder's is read as a stream: it may have no name in the file system, which HDF5 asks for.
+        self._rods = self._read(lambda: h5py.File(open(path, "rb") if path else self.path, "r")["particles/rods"])
         self.steps = self._read(lambda: self._rods["position/step"][()])
         self.times = self._read(lambda: self._rods["position/time"][()])
         if len(self.steps) == 0:
@@ -48,6 +55,11 @@ class Trajectory:
 
     def __len__(self):
         return len(self.steps)
+
+    def counts(self):
+        """Numbers of rods, (frames)."""
+        return self._read(lambda: np.array([np.count_nonzero(ids.astype(np.int64) != NO_ROD)
+                                            for ids in self._rods["id/value"]], int))
 
     def __iter__(self):
         return (self.frame(k) for k in range(len(self)))
@@ -69,10 +81,15 @@ class Trajectory:
 
         axis = column("orientation", float)
         axis /= np.linalg.norm(axis, axis=1, keepdims=True)
+        length, diameter = column("length", float), column("diameter", float)
+        pressure = None
+        if "stress_collision" in rods:
+            virial = np.trace(column("stress_collision", float), axis1=1, axis2=2)
+            pressure = virial / 3.0 / (np.pi * diameter**2 * (length / 4.0 + diameter / 6.0))
         return Frame(step=int(self.steps[k]), time=float(self.times[k]), edges=np.asarray(edges, float),
                      periodic=np.array([word == "periodic" for word in boundary]), id=ids[rows],
                      centre=column("position", float), image=column("image", np.int32), axis=axis,
-                     length=column("length", float), diameter=column("diameter", float))
+                     length=length, diameter=diameter, pressure=pressure)
 
     def _read(self, action):
         try:

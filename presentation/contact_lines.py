@@ -1,0 +1,48 @@
+"""Contact forces of the frames, as lines from the centre line of one rod to that of the other, the thicker the stronger."""
+
+import numpy as np
+
+from frames_of_page import Packed, between, folded
+
+MOST = 10**6         # lines of all frames; of more the page has none
+THICKEST = 0.7       # of the diameter of a rod: the line of the largest forces
+STRONG = 99.0        # percentile of the forces from which on lines are thickest
+
+
+def packed_contacts(run, frames, extent):
+    """Lines in the steps of the frames, or None where none were kept."""
+    rows = run.table("contacts.csv")
+    order = np.argsort(rows["step"], kind="stable")
+    rows = {name: values[order] for name, values in rows.items()}
+    lines = [_of_frame(frame, rows) for frame in frames]
+    force = np.concatenate([of_frame[3] for of_frame in lines])
+    if not 0 < len(force) <= MOST:
+        return None
+    middle, axis, length = (np.concatenate([of_frame[k] for of_frame in lines]) for k in range(3))
+    packed = Packed("contacts", [frame.time for frame in frames], [len(of_frame[3]) for of_frame in lines])
+    low, high = extent
+    for k, name in enumerate("xyz"):
+        packed.add(name, between(middle[:, k], low[k], high[k]))
+    for name, values in zip(("axis_a", "axis_b"), folded(axis)):
+        packed.add(name, values)
+    packed.add_varying("length", length)
+    strong = np.percentile(force, STRONG)
+    thickest = THICKEST * max(frame.diameter.max(initial=0.0) for frame in frames)
+    packed.add_varying("diameter", thickest * np.sqrt(np.minimum(force / strong, 1.0)))
+    return packed
+
+
+def _of_frame(frame, rows):
+    """middle (K, 3), unit vector along (K, 3), length (K), force (K) of the lines in this frame."""
+    begin, end = np.searchsorted(rows["step"], [frame.step, frame.step + 1])
+    here = {name: values[begin:end] for name, values in rows.items()}
+    i, j = (np.searchsorted(frame.id, here[name].astype(np.int64)) for name in ("id_i", "id_j"))
+    there = (i < len(frame)) & (j < len(frame))
+    there[there] &= (frame.id[i[there]] == here["id_i"][there]) & (frame.id[j[there]] == here["id_j"][there])
+    here = {name: values[there] for name, values in here.items()}
+    i, j = i[there], j[there]
+    normal = np.stack([here[f"normal_{axis}"] for axis in "xyz"], axis=1)
+    # Both ends as they were when the forces were found, at the begin of the step; the first rod's place is that at its end.
+    first = frame.centre[i] + here["arm_i"][:, None] * frame.axis[i]
+    length = 0.5 * (frame.diameter[i] + frame.diameter[j]) + here["gap"]
+    return first + 0.5 * length[:, None] * normal, normal, length, here["force"]

@@ -1,0 +1,85 @@
+"""The rods that the page turns: which frames, where they are, how they may be coloured, and what was left out."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from matplotlib import colormaps
+
+import colourings
+import contact_lines
+import povray_scene
+from frames_of_page import BYTES_OF_ROD, MEGABYTE, chosen_frames, packed_rods
+from lineage import Lineage
+
+
+@dataclass
+class Rods:
+    """What the page needs: `told` becomes JSON, `elements` are texts by the name of their element."""
+    told: dict = field(default_factory=dict)
+    elements: dict = field(default_factory=dict)
+    frames: list = field(default_factory=list)
+    cells: list = field(default_factory=list)  # (generation, age, family) of each frame, where cells grow
+    notes: list = field(default_factory=list)
+
+
+def rods_of(run, trajectory, megabytes):
+    counts = trajectory.counts()
+    numbers = chosen_frames(counts, megabytes)
+    made = Rods(frames=[trajectory.frame(k) for k in numbers])
+    if len(numbers) < len(counts):
+        made.notes.append(f"The page holds {len(numbers)} of the {len(counts)} frames, to stay within {megabytes:g} MB; "
+                          "--megabytes gives it more room.")
+    if counts[numbers].sum() * BYTES_OF_ROD * 4 / 3 > megabytes * MEGABYTE:
+        made.notes.append("Its one frame alone is larger than that.")
+    if run.grows and (run.folder / "lineage.csv").exists():
+        lineage = Lineage(run, made.frames)
+        made.cells = [lineage.at(frame) for frame in made.frames]
+    _describe(run, made)
+    return made
+
+
+def _describe(run, made):
+    frames = made.frames
+    extent = _extent(frames)
+    rods = packed_rods(frames, extent)
+    ways = colourings.colourings(run, rods, frames, made.cells)
+    low, high = povray_scene.extent(frames[-1])
+    camera = povray_scene.Camera(frames[-1])
+    factor, _ = run.in_unit("time")
+    rods.told["times"] = [factor * time for time in rods.told["times"]]
+    made.told = {"rods": rods.told, "colourings": ways, "map": _map(), "swim": run.propelled,
+                 "length_unit": run.in_unit("max_overlap")[1],
+                 "seen": _seen(frames[-1]).tolist(),
+                 "box": [low.tolist(), high.tolist()] if frames[-1].periodic.any() else None,
+                 "camera": {"back": (-camera.direction).tolist(), "pole": camera.pole.tolist()}}
+    made.elements = rods.elements
+    if (run.folder / "contacts.csv").exists():
+        lines = contact_lines.packed_contacts(run, frames, extent)
+        if lines:
+            made.told["contacts"] = {**lines.told, "low": rods.told["low"], "span": rods.told["span"]}
+            made.elements.update(lines.elements)
+
+
+def _extent(frames):
+    """Corners that hold all centres and the box, with room for lines that stick out."""
+    reach = max((frame.length + frame.diameter).max(initial=0.0) for frame in frames)
+    centres = [frame.centre for frame in frames if len(frame)]
+    corners = [np.zeros((1, 3)), *(frame.edges[None] for frame in frames)] if frames[-1].periodic.any() else []
+    points = np.concatenate(centres + corners) if centres or corners else np.zeros((1, 3))
+    return points.min(axis=0) - reach, points.max(axis=0) + reach
+
+
+def _seen(frame):
+    """Points that the picture must hold: the corners of a periodic box, else the outermost ends of rods all around."""
+    low, high = povray_scene.extent(frame)
+    corners = low + np.array(list(np.ndindex(2, 2, 2))) * (high - low)
+    if frame.periodic.any() or len(frame) == 0:
+        return corners
+    around = np.array([way for way in np.ndindex(5, 5, 5) if way != (2, 2, 2)]) - 2.0
+    ends = frame.ends().reshape(-1, 3)
+    return ends[np.unique((ends @ around.T).argmax(axis=0))]
+
+
+def _map():
+    """256 colours, even in lightness, and in the same order for every kind of colour vision."""
+    return (255 * colormaps["viridis"](np.linspace(0.0, 1.0, 256))[:, :3]).round().astype(int).tolist()
