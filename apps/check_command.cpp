@@ -16,6 +16,7 @@
 #include "jostle/simulation/rod_size.hpp"
 #include "jostle/simulation/scene_box.hpp"
 #include "jostle/simulation/scene_motion.hpp"
+#include "jostle/simulation/start.hpp"
 #include "jostle/simulation/step_limits.hpp"
 
 using namespace jostle;
@@ -188,6 +189,7 @@ ExitCode check(const Scene& scene, const std::string& scene_path) {
     const Population population = population_of(scene, from_file);
     const Box box = box_of(scene, from_file);
     if (from_file) beginning_of(scene, scene_path);  // which looks for overlaps
+    require_lattice_fits(scene, box);
     const double phi = population.volume / box.volume();
     const auto mobility = make_mobility(scene, population.rods);
     const double dt = time_step(scene, *mobility, population.rods);

@@ -109,6 +109,7 @@ def test_too_dense_to_start(tmp_path):
     """A start that cannot be had is bad input: nothing was simulated, nothing is left behind."""
     write_scene(tmp_path, changed(RODS, rods={"start": "lattice", "count": 3}, box={"volume_fraction": 0.84}))
     before = snapshot(tmp_path)
+    require_one_line(command(tmp_path, "check", "scene.toml"), "do not fit into the box in rows")
     require_one_line(run(tmp_path), 'scene.toml:7:9: rods.start = "lattice": ', "do not fit into the box in rows",
                      "Use a lower volume fraction")
     assert snapshot(tmp_path) == before

@@ -102,7 +102,8 @@ Grid roomiest_grid(std::uint64_t count, const std::array<double, 3>& edges, cons
         return static_cast<std::uint64_t>(std::clamp(edges[k] / size[k], 1.0, static_cast<double>(count)));
     };
     for (std::uint64_t across = 1; across <= most(1); ++across) {
-        for (std::uint64_t along = 1; along <= most(0); ++along) {
+        // More than one site for each rod would only be tighter.
+        for (std::uint64_t along = 1; along <= most(0) && (along - 1) * across < count; ++along) {
             const std::uint64_t rest = (count + across * along - 1) / (across * along);
             Grid grid{{along, across, rest}, 0.0};
             for (std::size_t k = 0; k < 3; ++k)
@@ -113,7 +114,16 @@ Grid roomiest_grid(std::uint64_t count, const std::array<double, 3>& edges, cons
     return best;
 }
 
-Rods lattice(const Scene& scene, const Box& box) {
+/// How the rods of a scene stand in rows.
+struct Lattice {
+    Vec3 axis;
+    std::array<int, 3> direction{};  ///< of the box: along the rods, then across
+    std::array<double, 3> edges{};   ///< of the box, in these directions
+    std::array<std::uint64_t, 3> sites{};
+};
+
+/// Errors: InputError if they do not fit into the box so.
+Lattice lattice_of(const Scene& scene, const Box& box) {
     const Vec3 axis = normalised(scene.rods.axis);
     const int along = std::fabs(axis.x) > 0.5 ? 0 : (std::fabs(axis.y) > 0.5 ? 1 : 2);
     if (std::fabs(axis[along]) < 1.0 - 1e-12)
@@ -122,11 +132,10 @@ Rods lattice(const Scene& scene, const Box& box) {
                           .problem = "a lattice needs its rods along an edge of the box",
                           .allowed = "[1, 0, 0], [0, 1, 0] or [0, 0, 1]",
                           .suggestion = "For another direction use start = \"aligned\""});
-    const std::array<int, 3> direction = {along, (along + 1) % 3, (along + 2) % 3};
+    Lattice lattice{axis, {along, (along + 1) % 3, (along + 2) % 3}, {}, {}};
     const double D = scene.rods.diameter;
-    std::array<double, 3> edges{};
-    for (std::size_t k = 0; k < 3; ++k) edges[k] = box.edges[direction[k]];
-    const Grid grid = roomiest_grid(scene.rods.count, edges, {scene.rods.length + D, D, D});
+    for (std::size_t k = 0; k < 3; ++k) lattice.edges[k] = box.edges[lattice.direction[k]];
+    const Grid grid = roomiest_grid(scene.rods.count, lattice.edges, {scene.rods.length + D, D, D});
     if (grid.tightness > 1.0)
         throw InputError(
             {.key = "rods.start",
@@ -135,18 +144,24 @@ Rods lattice(const Scene& scene, const Box& box) {
                                     "need edges {:.4g} times longer",
                                     scene.rods.count, grid.sites[0], grid.sites[1], grid.sites[2], grid.tightness),
              .suggestion = "Use a lower volume fraction or another box.shape"});
+    lattice.sites = grid.sites;
+    return lattice;
+}
+
+Rods rods_in_rows(const Scene& scene, const Box& box) {
+    const auto& [axis, direction, edges, in_row] = lattice_of(scene, box);
     Rods rods;
-    const std::uint64_t sites = grid.sites[0] * grid.sites[1] * grid.sites[2];
+    const std::uint64_t sites = in_row[0] * in_row[1] * in_row[2];
     for (std::uint64_t id = 0; id < scene.rods.count; ++id) {
         // Vacant sites, if any, lie evenly among the others.
         const auto site = static_cast<std::uint64_t>(static_cast<double>(id) * static_cast<double>(sites) /
                                                      static_cast<double>(scene.rods.count));
-        const std::array<std::uint64_t, 3> cell = {site / (grid.sites[2] * grid.sites[1]),
-                                                   site / grid.sites[2] % grid.sites[1], site % grid.sites[2]};
+        const std::array<std::uint64_t, 3> cell = {site / (in_row[2] * in_row[1]), site / in_row[2] % in_row[1],
+                                                   site % in_row[2]};
         Vec3 centre;
         for (std::size_t k = 0; k < 3; ++k)
-            centre[direction[k]] = (static_cast<double>(cell[k]) + 0.5) * edges[k] / static_cast<double>(grid.sites[k]);
-        rods.push_back(id, centre, axis, scene.rods.length, D);
+            centre[direction[k]] = (static_cast<double>(cell[k]) + 0.5) * edges[k] / static_cast<double>(in_row[k]);
+        rods.push_back(id, centre, axis, scene.rods.length, scene.rods.diameter);
     }
     return rods;
 }
@@ -166,6 +181,10 @@ Rods checked(Rods rods, const Box& box, const Scene& scene) {
 
 }  // namespace
 
+void require_lattice_fits(const Scene& scene, const Box& box) {
+    if (scene.rods.start == StartKind::lattice) lattice_of(scene, box);
+}
+
 Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& from_file) {
     parallel::suit_thread_count(parallel::worthwhile_thread_count(scene.rods.count));
     switch (scene.rods.start) {
@@ -174,7 +193,7 @@ Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& f
         case StartKind::aligned:
             return pushed_apart(scattered_rods(scene, box, normalised(scene.rods.axis)), box, false, scene);
         case StartKind::lattice:
-            return lattice(scene, box);
+            return rods_in_rows(scene, box);
         case StartKind::file:
             return checked(from_file.value(), box, scene);
     }

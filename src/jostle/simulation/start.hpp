@@ -18,4 +18,8 @@ namespace jostle {
 /// Throws InputError where the rods do not fit.
 Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& from_file = std::nullopt);
 
+/// Whether the rods of a scene with start = "lattice" fit into the box in rows, without making them. Errors:
+/// InputError.
+void require_lattice_fits(const Scene& scene, const Box& box);
+
 }  // namespace jostle

@@ -9,7 +9,7 @@ namespace jostle {
 
 namespace {
 
-[[noreturn]] void refuse(const Mat3& second_moment, const std::string& problem) {
+[[noreturn]] void refuse_second_moment(const Mat3& second_moment, const std::string& problem) {
     throw InputError({.key = "second_moment",
                       .value = fmt::format("{}", fmt::join(second_moment.m, " ")),
                       .problem = problem,
@@ -21,13 +21,15 @@ namespace {
 /// Eigenvalues (ascending) and axes of N, or InputError.
 SymmetricEigen checked_eigen(const Mat3& second_moment) {
     for (double value : second_moment.m)
-        if (!std::isfinite(value)) refuse(second_moment, "must be finite");
+        if (!std::isfinite(value)) refuse_second_moment(second_moment, "must be finite");
     const double size = norm(second_moment);
-    if (norm(second_moment - transpose(second_moment)) > 1e-12 * size) refuse(second_moment, "must be symmetric");
+    if (norm(second_moment - transpose(second_moment)) > 1e-12 * size)
+        refuse_second_moment(second_moment, "must be symmetric");
     const SymmetricEigen eigen = symmetric_eigen(second_moment);
-    if (eigen.values[0] < -1e-12 * size) refuse(second_moment, "has a negative eigenvalue");
+    if (eigen.values[0] < -1e-12 * size) refuse_second_moment(second_moment, "has a negative eigenvalue");
     // The smallest eigenvalue of G is the sum of the two smaller ones of N; 1e-14 admits rods up to L/D = 1e7.
-    if (!(eigen.values[0] + eigen.values[1] > 1e-14 * size)) refuse(second_moment, "gives an inertia that is singular");
+    if (!(eigen.values[0] + eigen.values[1] > 1e-14 * size))
+        refuse_second_moment(second_moment, "gives an inertia that is singular");
     return eigen;
 }
 
