@@ -13,6 +13,7 @@
 #include "jostle/io/springs_file.hpp"
 #include "jostle/io/units.hpp"
 #include "jostle/simulation/assemble.hpp"
+#include "jostle/simulation/free_clocks.hpp"
 #include "jostle/simulation/rod_size.hpp"
 #include "jostle/simulation/scene_box.hpp"
 #include "jostle/simulation/scene_motion.hpp"
@@ -110,6 +111,38 @@ void print_motion(const Scene& scene, const Mobility& mobility, const Rods& rods
         if (kT > 0.0 && rods.length[0] > 0.0)
             print("U_0/(L D_R)", fmt::format("{:.4g}", speed / (rods.length[0] * rotation)));
     }
+}
+
+/// How many of its own clocks the production covers, and how much of it would do for error bars.
+void print_clocks(const Scene& scene, const Mobility& mobility, const Rods& rods, double phi) {
+    constexpr double margin = 1.25;  // over what is needed at the least
+    const FreeClocks clocks = free_clocks(scene, mobility, rods);
+    if (scene.growth.rate > 0.0 || (clocks.rotation == 0.0 && clocks.diffusion == 0.0)) return;
+    const double production = scene.time.production;
+    const double slowdown = rods_are_alike(scene) && scene.rods.start != StartKind::file
+                                ? crowding_slowdown(phi, rods.length[0] / rods.diameter[0])
+                                : 1.0;
+    std::string covered, needed;
+    if (clocks.rotation > 0.0) {
+        print("rotation time, alone", with_unit(clocks.rotation, scene, dimension::time));
+        print("rotation time, in the crowd",
+              "about " + fmt::format("{:.2g} {}", slowdown * clocks.rotation, unit_of(scene, dimension::time)));
+        covered = in_times(production / clocks.rotation, "rotation time");
+        if (production < least_rotation_times * clocks.rotation)
+            needed = fmt::format("{} rotation times are needed", least_rotation_times);
+    }
+    if (clocks.diffusion > 0.0) {
+        print("diffusion time D^2/D_t", with_unit(clocks.diffusion, scene, dimension::time));
+        covered += (covered.empty() ? "" : ", ") + in_times(production / clocks.diffusion, "diffusion time");
+        if (needed.empty() && production < least_diffusion_times * clocks.diffusion)
+            needed = fmt::format("{} diffusion times are needed", least_diffusion_times);
+    }
+    print("production", needed.empty() ? "covers " + covered + " of a rod alone"
+                                       : "too short to tell: covers " + covered + "; at least " + needed);
+    const double enough =
+        margin * std::max(least_rotation_times * slowdown * clocks.rotation, least_diffusion_times * clocks.diffusion);
+    print("production for error bars",
+          fmt::format("about {:.2g} {} (an estimate)", enough, unit_of(scene, dimension::time)));
 }
 
 struct SpringsOfScene {
@@ -216,6 +249,7 @@ ExitCode check(const Scene& scene, const std::string& scene_path) {
         const auto& [x, y, z] = field->cells();
         print("stress field", fmt::format("{} x {} x {} cells", x, y, z));
     }
+    print_clocks(scene, *mobility, population.rods, phi);
     print_cost(scene, population, box, dt);
     return ExitCode::done;
 }

@@ -1,30 +1,77 @@
 #include "production_window.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 #include <vector>
 
+#include "jostle/io/series_columns.hpp"
 #include "jostle/statistics/equilibration.hpp"
+#include "summary_entries.hpp"
 
 using namespace jostle;
 
-ProductionWindow production_window(const Scene& scene, const SeriesTable& series) {
+namespace {
+
+using Verdict = EquilibriumCheck::Verdict;
+
+/// Rows are means over the steps before them: the first of the window begins at the end of equilibration or later.
+std::size_t first_row_after(const std::vector<double>& time, double equilibration) {
+    std::size_t row = 0;
+    while (row < time.size() && (row == 0 ? 0.0 : time[row - 1]) < equilibration * (1.0 - 1e-12)) ++row;
+    return row;
+}
+
+/// The rows of production that have a number: active stress begins later than the others.
+WatchedColumn watched(const SeriesTable& series, std::size_t first, const char* name, const char* words) {
+    std::vector<double> rows = from_row(series.column(name), first);
+    const auto begin = std::find_if(rows.begin(), rows.end(), [](double value) { return std::isfinite(value); });
+    rows.erase(rows.begin(), begin);
+    return {words, std::move(rows)};
+}
+
+ProductionSeries production_series(const Scene& scene, const SeriesTable& series, std::size_t first, bool turn) {
+    const std::vector<double>& time = series.column("time");
+    ProductionSeries production;
+    production.row_time = time.empty() ? 0.0 : time.back() / static_cast<double>(time.size());
+    production.watched = {watched(series, first, "pressure_collision", "collision pressure")};
+    if (!scene.springs.file.empty())
+        production.watched.push_back(watched(series, first, "pressure_springs", "pressure of springs"));
+    if (scene.motion.self_propulsion != 0.0)
+        production.watched.push_back(watched(series, first, "pressure_active", "active pressure"));
+    if (!turn) return production;
+    production.order = from_row(series.column("nematic_order"), first);
+    production.order_tensor = window_columns(series, first, order_tensor_column_names);
+    return production;
+}
+
+}  // namespace
+
+ProductionWindow production_window(const Scene& scene, const SeriesTable& series, const FreeClocks& clocks) {
     const std::vector<double>& time = series.column("time");
     ProductionWindow window;
+    bool found = true;
     if (scene.time.equilibration) {
         window.equilibration_time = *scene.time.equilibration;
-        // Rows are means over the steps before them: the first of the window begins at the end of equilibration or
-        // later.
-        const auto begin_of = [&](std::size_t row) { return row == 0 ? 0.0 : time[row - 1]; };
-        while (window.first_row < time.size() && begin_of(window.first_row) < window.equilibration_time * (1.0 - 1e-12))
-            ++window.first_row;
+        window.first_row = first_row_after(time, window.equilibration_time);
+    } else {
+        // The order may still be drifting when the pressure has settled, so the later start counts. But its own slow
+        // fluctuations leave few independent samples even in equilibrium: whether it was reached, the pressure says.
+        const Equilibration by_pressure = detect_equilibration(series.column("pressure_collision"));
+        const Equilibration by_order = detect_equilibration(series.column("nematic_order"));
+        window.first_row = std::max(by_pressure.start, by_order.start);
+        window.equilibration_time = window.first_row == 0 ? 0.0 : time[window.first_row - 1];
+        found = by_pressure.reached;
+    }
+    if (scene.growth.rate > 0.0) {
+        window.equilibrium.reason = "the number of cells changes";
         return window;
     }
-    // The order may still be drifting when the pressure has settled, so the later start counts. But its own slow
-    // fluctuations leave few independent samples even in equilibrium: whether it was reached, the pressure says.
-    const Equilibration by_pressure = detect_equilibration(series.column("pressure_collision"));
-    const Equilibration by_order = detect_equilibration(series.column("nematic_order"));
-    window.first_row = std::max(by_pressure.start, by_order.start);
-    window.equilibrated = by_pressure.reached;
-    window.equilibration_time = window.first_row == 0 ? 0.0 : time[window.first_row - 1];
+    const bool turn = clocks.rotation > 0.0;
+    window.equilibrium = check_equilibrium(production_series(scene, series, window.first_row, turn), clocks);
+    if (window.equilibrated() && !found) {
+        window.equilibrium.verdict = Verdict::drifting;
+        window.equilibrium.reason = "the collision pressure drifts, or is worth too few independent rows";
+    }
     return window;
 }

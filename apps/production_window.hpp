@@ -4,13 +4,17 @@
 
 #include "jostle/io/series_file.hpp"
 #include "jostle/simulation/scene.hpp"
+#include "jostle/statistics/equilibrium_check.hpp"
 
-/// Which rows of the series are averaged over.
+/// Which rows of the series are averaged over, and whether they are of equilibrium.
 struct ProductionWindow {
     std::size_t first_row = 0;
     double equilibration_time = 0.0;
-    bool equilibrated = true;  ///< false: it was to be detected, and was not
+    jostle::EquilibriumCheck equilibrium;
+
+    bool equilibrated() const { return equilibrium.verdict == jostle::EquilibriumCheck::Verdict::reached; }
 };
 
 /// The window of production at the end of the series as it is, or where equilibration has to be found in it.
-ProductionWindow production_window(const jostle::Scene& scene, const jostle::SeriesTable& series);
+ProductionWindow production_window(const jostle::Scene& scene, const jostle::SeriesTable& series,
+                                   const jostle::FreeClocks& clocks);

@@ -49,8 +49,9 @@ void ProgressLine::show(const Now& now) {
     const std::string left = gained > 0.0 ? duration(elapsed * (1.0 - now.fraction_done) / gained) : "?";
     const std::string line = fmt::format(
         "step {}  t {:.4g}  phi {:.4f}  Z {:.3f}  overlap {:.1e} D  iterations {:.0f}  contacts {:.0f}  "
-        "{:.0f} steps/s  {} left",
-        now.step, now.time, now.phi, now.Z, now.max_overlap_in_D, now.iterations, now.contacts, steps_per_second, left);
+        "{:.0f} steps/s  {} left{}{}",
+        now.step, now.time, now.phi, now.Z, now.max_overlap_in_D, now.iterations, now.contacts, steps_per_second, left,
+        now.remark.empty() ? "" : "  ", now.remark);
     std::fprintf(stderr, terminal_ ? "\r\033[K%s" : "%s\n", line.c_str());
     std::fflush(stderr);
     shown_ = true;

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <string>
 
 /// What the user sees of a run while it goes on: on a terminal one line that is kept up to date, elsewhere a line now
 /// and then.
@@ -16,6 +17,7 @@ public:
         double iterations = 0.0;
         double contacts = 0.0;
         double fraction_done = 0.0;  ///< 0 to 1; an estimate where equilibration is detected as the run goes
+        std::string remark = {};     ///< at the end of the line
     };
 
     /// `quiet`: says nothing at all.

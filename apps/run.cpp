@@ -12,6 +12,7 @@
 #include "jostle/io/h5md_writer.hpp"
 #include "jostle/io/series_columns.hpp"
 #include "jostle/io/units.hpp"
+#include "jostle/simulation/free_clocks.hpp"
 #include "jostle/simulation/largest_overlap.hpp"
 #include "jostle/simulation/rod_size.hpp"
 #include "jostle/simulation/scene_motion.hpp"
@@ -60,7 +61,7 @@ Run::Run(const RunOptions& options, const RunScene& scene, Simulation& simulatio
       files_(files),
       directory_(directory),
       sums_(std::move(sums)),
-      length_(scene_, simulation.settings().time_step),
+      length_(scene_, simulation.settings().time_step, free_clocks(scene_, simulation.mobility(), simulation.rods())),
       record_(directory, options),
       progress_(options.quiet || options.json) {
     simulation_.interrupt_when(
@@ -135,7 +136,7 @@ std::string Run::reason_to_stop() const {
     return wall_time_is_over(longest_step_ + kept_between_steps) ? "walltime" : "";
 }
 
-void Run::show_progress() {
+void Run::show_progress(const std::string& remark) {
     const SeriesTable& series = files_.series();
     const Rods& rods = simulation_.rods();
     const auto last = [&](const char* column) {
@@ -143,7 +144,7 @@ void Run::show_progress() {
     };
     progress_.show({simulation_.clock().step, simulation_.clock().time, total_volume(rods) / simulation_.box().volume(),
                     last("Z"), sums_.run_max_overlap / smallest_diameter(scene_, rods), last("iterations"),
-                    last("contacts"), length_.fraction_done(series.rows())});
+                    last("contacts"), length_.fraction_done(series.rows()), remark});
 }
 
 void Run::write_trajectory() const {
@@ -199,7 +200,8 @@ ExitCode Run::finish() {
     const auto summary = summarise(scene_, simulation_, files_.series(), overlap);
     replace_file(directory_.file("summary.json"), summary.dump(2) + "\n");
     record_.write(simulation_, "done");
-    show_progress();
+    const bool known = summary["equilibrated"].get<bool>() || scene_.growth.rate > 0.0;
+    show_progress(known ? "" : summary["equilibrium"]["in_words"].get<std::string>());
     if (options_.json)
         std::printf("%s\n", summary.dump(2).c_str());
     else if (!options_.quiet)

@@ -29,7 +29,7 @@ private:
     void checkpoint();
     bool wall_time_is_over(double still_to_be_done) const;
     std::string reason_to_stop() const;
-    void show_progress();
+    void show_progress(const std::string& remark = {});
     void write_trajectory() const;
     ExitCode stop_early(const std::string& reason);
     ExitCode die_out();

@@ -16,11 +16,14 @@ constexpr std::size_t looks_per_production = 20;
 
 }  // namespace
 
-RunLength::RunLength(const Scene& scene, double time_step) : scene_(scene) {
+RunLength::RunLength(const Scene& scene, double time_step, const FreeClocks& clocks) : scene_(scene), clocks_(clocks) {
     const double row_time = time_step * static_cast<double>(scene.output.series_every);
     const auto rows = [&](double time) { return static_cast<std::size_t>(std::ceil(time / row_time - 1e-9)); };
     production_rows_ = std::max<std::size_t>(1, rows(scene.time.production));
     if (scene.time.equilibration) fixed_rows_ = rows(*scene.time.equilibration) + production_rows_;
+    const double longest = longest_run_in_productions * scene.time.production;
+    can_be_long_enough_ =
+        longest >= least_rotation_times * clocks.rotation && longest >= least_diffusion_times * clocks.diffusion;
 }
 
 bool RunLength::is_over(const SeriesTable& series) {
@@ -29,8 +32,9 @@ bool RunLength::is_over(const SeriesTable& series) {
     rows_looked_at_ = series.rows();
     const std::size_t look_every = std::max<std::size_t>(1, production_rows_ / looks_per_production);
     if (series.rows() % look_every != 0) return false;
-    const ProductionWindow window = production_window(scene_, series);
-    if (window.equilibrated && series.rows() - window.first_row >= production_rows_) return true;
+    const ProductionWindow window = production_window(scene_, series, clocks_);
+    const bool complete = series.rows() - window.first_row >= production_rows_;
+    if (complete && (window.equilibrated() || !can_be_long_enough_)) return true;
     return static_cast<double>(series.rows()) >= longest_run_in_productions * static_cast<double>(production_rows_);
 }
 

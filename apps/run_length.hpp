@@ -4,11 +4,12 @@
 
 #include "jostle/io/series_file.hpp"
 #include "jostle/simulation/scene.hpp"
+#include "jostle/statistics/equilibrium_check.hpp"
 
 /// Decides, from the series alone, when a run has all that it was asked for.
 class RunLength {
 public:
-    RunLength(const jostle::Scene& scene, double time_step);
+    RunLength(const jostle::Scene& scene, double time_step, const jostle::FreeClocks& clocks);
 
     bool is_over(const jostle::SeriesTable& series);
 
@@ -17,6 +18,8 @@ public:
 
 private:
     const jostle::Scene& scene_;
+    jostle::FreeClocks clocks_;
+    bool can_be_long_enough_ = true;  ///< else more time would only end in the same words
     std::size_t production_rows_ = 1;
     std::size_t fixed_rows_ = 0;  ///< 0: equilibration is detected
     std::size_t rows_looked_at_ = 0;

@@ -5,6 +5,7 @@
 
 #include "jostle/math/symmetric_eigen.hpp"
 #include "jostle/statistics/jackknife.hpp"
+#include "jostle/statistics/order_parameter.hpp"
 #include "jostle/stress/spherocylinder_moments.hpp"
 #include "stress_columns.hpp"
 
@@ -18,8 +19,6 @@ namespace {
 constexpr double agreement = 4.0;
 /// The same where the direction is chance (theory, section 1): chi of five degrees of freedom for a normal variable.
 constexpr double agreement_along_chance = 5.2;
-/// Order above which a run is a nematic. Isotropic phases of rods end below.
-constexpr double nematic_above = 0.4;
 
 Mat3 order_of(std::span<const double> means) {
     const auto q = means.first(6);

@@ -6,6 +6,7 @@
 #include "jostle/io/series_columns.hpp"
 #include "jostle/io/units.hpp"
 #include "jostle/math/symmetric_eigen.hpp"
+#include "jostle/simulation/free_clocks.hpp"
 #include "jostle/simulation/rod_size.hpp"
 #include "jostle/stress/stress.hpp"
 #include "production_window.hpp"
@@ -17,6 +18,10 @@ using namespace jostle;
 using Json = nlohmann::ordered_json;
 
 namespace {
+
+/// Standard errors between the largest and the smallest principal stress from which on they are called different. Those
+/// of an isotropic state lie two apart in the mean, and four once in a thousand times.
+constexpr double distinct = 4.0;
 
 double eigenvalue_ratio(std::span<const double> stress) {
     return anisotropy_ratio(stress_of(stress));
@@ -36,11 +41,42 @@ void summarise_active_stress(const SeriesTable& series, std::size_t first, const
     summary["stress_active"] = tensor_entry(window_columns(series, first, active_stress_column_names), unit);
 }
 
-/// Eigenvalues of the mean stress, ascending.
-Json mean_principal_stresses(const Columns& stress) {
+/// A stress along a fixed direction, row by row.
+std::vector<double> along_rows(const Columns& stress, const Vec3& direction) {
+    std::vector<double> rows(stress[0].size());
+    for (std::size_t row = 0; row < rows.size(); ++row)
+        for (int a = 0; a < 3; ++a)
+            for (int b = 0; b < 3; ++b) rows[row] += direction[a] * direction[b] * stress[3 * a + b][row];
+    return rows;
+}
+
+/// Eigenvalues of the mean stress, ascending, each with the error of the stress along its eigenvector.
+Json mean_principal_stresses(const Columns& stress, const std::string& unit) {
     std::array<double, 9> mean{};
     for (std::size_t k = 0; k < 9; ++k) mean[k] = mean_of(stress[k]);
-    return principal_stresses(stress_of(mean));
+    const auto eigen = symmetric_eigen(stress_of(mean));
+    Json means = Json::array(), errors = Json::array();
+    for (std::size_t k = 0; k < 3; ++k) {
+        means.push_back(eigen.values[k]);
+        errors.push_back(optional_number(average(along_rows(stress, eigen.vectors[k])).standard_error));
+    }
+    std::vector<double> difference = along_rows(stress, eigen.vectors[2]);
+    const std::vector<double> least = along_rows(stress, eigen.vectors[0]);
+    for (std::size_t row = 0; row < difference.size(); ++row) difference[row] -= least[row];
+    const Average spread = average(difference);
+    return {{"mean", means},
+            {"standard_error", errors},
+            {"unit", unit},
+            {"differ", spread.standard_error ? Json(spread.mean > distinct * *spread.standard_error) : Json(nullptr)}};
+}
+
+/// The ratio of the largest to the smallest principal stress. Where these do not differ by more than chance it has a
+/// kink, and lies above 1 by noise alone: it has no error bar there.
+Json anisotropy(const Columns& stress, const Json& principal) {
+    Json entry = described(jackknife(stress, eigenvalue_ratio));
+    if (principal["differ"] != Json(true))
+        withhold_errors(entry, "The stress is isotropic within its error: the ratio is above 1 by chance.");
+    return entry;
 }
 
 bool all_alike(const Rods& rods) {
@@ -53,7 +89,8 @@ bool all_alike(const Rods& rods) {
 }  // namespace
 
 Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTable& series, double run_max_overlap) {
-    const ProductionWindow window = production_window(scene, series);
+    const ProductionWindow window =
+        production_window(scene, series, free_clocks(scene, simulation.mobility(), simulation.rods()));
     const std::size_t first = window.first_row;
     const std::string stress_unit = unit_of(scene, dimension::stress);
     const Rods& rods = simulation.rods();
@@ -88,8 +125,8 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
             tensor_entry(window_columns(series, first, spring_stress_column_names), stress_unit);
     }
     if (scene.motion.self_propulsion != 0.0) summarise_active_stress(series, first, stress_unit, summary);
-    summary["principal_stresses"] = {{"mean", mean_principal_stresses(stress)}, {"unit", stress_unit}};
-    summary["principal_stresses_collision"] = {{"mean", mean_principal_stresses(collision)}, {"unit", stress_unit}};
+    summary["principal_stresses"] = mean_principal_stresses(stress, stress_unit);
+    summary["principal_stresses_collision"] = mean_principal_stresses(collision, stress_unit);
     if (scene.output.stress_conventions)
         for (const auto& [name, columns] : {std::pair{"centre_of_mass", centre_of_mass_column_names},
                                             std::pair{"centre_line", centre_line_column_names}}) {
@@ -100,10 +137,11 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     summary["nematic_order"] = described(average_of("nematic_order"), "");
     const Vec3 director = mean_director(order).direction;
     summary["director"] = {director.x, director.y, director.z};
-    summary["anisotropy"] = described(jackknife(stress, eigenvalue_ratio));
-    summary["anisotropy_collision"] = described(jackknife(collision, eigenvalue_ratio));
+    summary["anisotropy"] = anisotropy(stress, summary["principal_stresses"]);
+    summary["anisotropy_collision"] = anisotropy(collision, summary["principal_stresses_collision"]);
     summary["equilibration_time"] = window.equilibration_time;
-    summary["equilibrated"] = window.equilibrated;
+    summary["equilibrated"] = window.equilibrated();
+    summary["equilibrium"] = described(window.equilibrium);
     summary["production_rows"] = series.rows() - std::min(first, series.rows());
     summary["max_overlap"] = run_max_overlap / smallest_diameter(scene, rods);
     Json checks = Json::object();
@@ -117,5 +155,7 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     const Average number = average_of("N");
     if (number.standard_deviation > 0.0 && !number.standard_error)
         withhold_errors(summary, "The number of cells changes throughout: averages are of no state that lasts.");
+    else if (!window.equilibrated() && !grows)
+        withhold_errors(summary, "Equilibrium: " + in_words(window.equilibrium) + ".");
     return summary;
 }

@@ -52,6 +52,16 @@ Json described(const Estimate& estimate) {
     return entry;
 }
 
+Json described(const EquilibriumCheck& check) {
+    const auto if_any = [](double time) { return time > 0.0 && std::isfinite(time) ? Json(time) : Json(nullptr); };
+    Json entry = {{"verdict", in_words(check.verdict)}, {"in_words", in_words(check)}};
+    if (!check.reason.empty()) entry["reason"] = check.reason;
+    entry["rotation_time"] = if_any(check.rotation_time);
+    entry["rotation_times"] = if_any(check.rotation_times);
+    entry["diffusion_times"] = if_any(check.diffusion_times);
+    return entry;
+}
+
 Json tensor_entry(const Columns& columns, const std::string& unit) {
     Json mean = Json::array(), error = Json::array();
     for (std::size_t a = 0; a < 3; ++a) {
@@ -69,7 +79,9 @@ Json tensor_entry(const Columns& columns, const std::string& unit) {
 
 void withhold_errors(Json& entry, const std::string& reason) {
     if (!entry.is_object()) return;
-    if (entry.contains("standard_error")) {
+    if (entry.contains("agree")) {  // a check that fails is told all the same
+        if (entry["agree"] == Json(true)) entry["agree"] = nullptr;
+    } else if (entry.contains("standard_error")) {
         set_null(entry["standard_error"]);
         entry["no_standard_error_because"] = reason;
     }

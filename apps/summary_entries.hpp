@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "jostle/io/series_file.hpp"
+#include "jostle/statistics/equilibrium_check.hpp"
 #include "jostle/statistics/jackknife.hpp"
 #include "jostle/statistics/time_series.hpp"
 
@@ -27,11 +28,14 @@ Columns window_columns(const jostle::SeriesTable& series, std::size_t first, std
 nlohmann::ordered_json described(const jostle::Average& average, const std::string& unit);
 nlohmann::ordered_json described(const jostle::Estimate& estimate);
 
+nlohmann::ordered_json described(const jostle::EquilibriumCheck& check);
+
 /// A number, or null.
 nlohmann::ordered_json optional_number(const std::optional<double>& value);
 
 /// Mean and standard error of each of nine columns, by rows of the tensor.
 nlohmann::ordered_json tensor_entry(const Columns& columns, const std::string& unit);
 
-/// Takes all error bars out of an entry and its parts, and gives the reason instead.
+/// Takes all error bars out of an entry and its parts, and gives the reason instead. A check of theory that agrees is
+/// no longer said to; one that fails still is.
 void withhold_errors(nlohmann::ordered_json& entry, const std::string& reason);

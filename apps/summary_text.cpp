@@ -18,10 +18,21 @@ std::string mean_text(const Json& entry) {
     return entry.contains("unit") ? text + " " + entry["unit"].get<std::string>() : text;
 }
 
-/// What the standard error rests on, or why there is none.
-std::string support_text(const Json& entry) {
+/// What the standard error rests on, or why there is none; `withheld`: from all, for one reason.
+std::string support_text(const Json& entry, bool withheld) {
+    if (withheld) return "(no error bar)";
     if (!entry["standard_error"].is_null()) return fmt::format("(n_eff {:.0f})", entry["n_eff"].get<double>());
     return fmt::format("(no error bar: {})", entry.value("no_standard_error_because", "not defined"));
+}
+
+std::string principal_text(const Json& principal) {
+    std::string text;
+    for (std::size_t k = 0; k < 3; ++k) {
+        text += fmt::format("{}{:.5g}", k > 0 ? ", " : "", principal["mean"][k].get<double>());
+        if (const Json& error = principal["standard_error"][k]; !error.is_null())
+            text += fmt::format(" +- {:.2g}", error.get<double>());
+    }
+    return text + " " + principal["unit"].get<std::string>();
 }
 
 std::string line(const char* name, const std::string& value) {
@@ -36,7 +47,7 @@ std::string range_text(const Json& range) {
     return from == to ? from : from + " to " + to;
 }
 
-std::string text_of_checks(const Json& of_summary) {
+std::string text_of_checks(const Json& of_summary, bool withheld) {
     if (of_summary.empty()) return "";
     std::string text = "stress ratio along/across the director, measured and in equilibrium\n";
     for (const auto& [key, name] : checks) {
@@ -45,9 +56,10 @@ std::string text_of_checks(const Json& of_summary) {
         const std::string verdict = check["agree"].is_null()     ? ""
                                     : check["agree"].get<bool>() ? ": agrees"
                                                                  : ": disagrees";
-        text += line(fmt::format("  {}", name).c_str(),
-                     fmt::format("{}, in equilibrium {}{}  {}", mean_text(check["measured"]),
-                                 range_text(check["in_equilibrium"]), verdict, support_text(check["measured"])));
+        text +=
+            line(fmt::format("  {}", name).c_str(),
+                 fmt::format("{}, in equilibrium {}{}  {}", mean_text(check["measured"]),
+                             range_text(check["in_equilibrium"]), verdict, support_text(check["measured"], withheld)));
     }
     return text;
 }
@@ -75,14 +87,16 @@ std::string summary_text(const Json& summary) {
                                                                 {"nematic_order", "nematic order S"},
                                                                 {"anisotropy", "stress anisotropy"},
                                                                 {"anisotropy_collision", "  of collisions"}};
+    const Json& equilibrium = summary["equilibrium"];
+    const bool withheld = equilibrium["verdict"] == "not reached" || equilibrium["verdict"] == "too short to tell";
     std::string text;
     for (const auto& [key, name] : averages)
-        if (summary.contains(key)) text += line(name, mean_text(summary[key]) + "  " + support_text(summary[key]));
-    text += text_of_checks(summary["checks"]);
-    const bool equilibrated = summary["equilibrated"].get<bool>();
-    text += line("equilibration time",
-                 fmt::format("{:.4g}{}", summary["equilibration_time"].get<double>(),
-                             equilibrated ? "" : "   WARNING: equilibrium was not reached; run longer"));
+        if (summary.contains(key))
+            text += line(name, mean_text(summary[key]) + "  " + support_text(summary[key], withheld));
+    text += text_of_checks(summary["checks"], withheld);
+    text += line("principal stresses", principal_text(summary["principal_stresses_collision"]) + "  (of collisions)");
+    text += line("equilibration time", fmt::format("{:.4g}", summary["equilibration_time"].get<double>()));
+    text += line("equilibrium", (withheld ? "WARNING: " : "") + equilibrium["in_words"].get<std::string>());
     text += line("largest overlap", fmt::format("{:.2e} D", summary["max_overlap"].get<double>()));
     return text + warnings_of_checks(summary["checks"]);
 }

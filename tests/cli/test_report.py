@@ -62,7 +62,7 @@ def numbers_after(page, words):
 def averaged(tmp_path_factory):
     """A run long enough for error bars."""
     folder = tmp_path_factory.mktemp("averaged")
-    write_scene(folder, changed(with_steps(RODS, 4000), title="rods & <spheres>", output={"trajectory_every": 2000}))
+    write_scene(folder, changed(with_steps(RODS, 20000), title="rods & <spheres>", output={"trajectory_every": 10000}))
     finish(folder)
     return folder
 
@@ -86,6 +86,12 @@ def test_a_done_run(averaged):
     assert "The run is not done" not in page
     after = snapshot(averaged / "run")
     assert {name: after[name] for name in before} == before
+
+
+def test_a_run_too_short_to_tell(finished_copy):
+    page, _ = report(finished_copy)
+    assert re.search(r'<li class="bad">.*Too short to tell whether this is equilibrium.*covers 0\.\d+ of a rotation time; at least 4 are needed', page)
+    assert numbers_after(page, "compressibility factor Z")[1] == "–"
 
 
 def test_again_and_elsewhere(averaged):

@@ -14,7 +14,7 @@ from jostle_command import (DONE, JOSTLE, RODS, SPHERES, STOPPED, changed, comma
 
 ENDLESS = changed(with_steps(RODS, 10**6), output={"checkpoint_every": 10**7})
 PROGRESS = re.compile(r"^step \d+  t \S+  phi \S+  Z \S+  overlap \S+ D  iterations \d+  contacts \d+  \d+ steps/s  "
-                      r"\S+ left$")
+                      r"\S+ left(  \S.*)?$")
 
 
 def test_fresh_moves_the_old_run_aside(finished_copy, finished):

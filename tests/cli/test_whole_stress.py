@@ -81,7 +81,7 @@ def test_exactly_zero(tmp_path, scene):
 
 def test_check_of_the_whole_stress(tmp_path):
     """Along the mean director over across it, of the mean tensor; swimmers are in no equilibrium."""
-    write_scene(tmp_path / "passive", with_steps(RODS, 2000))
+    write_scene(tmp_path / "passive", with_steps(RODS, 20000))
     result = run(tmp_path / "passive")
     folder = tmp_path / "passive/run"
     summary = summary_of(folder)

@@ -41,7 +41,7 @@ TEST_CASE("the stress anisotropy of a nematic is that of Z and the order tensor"
     const auto normal_difference = [](const Mat3& m) { return m(0, 0) - 0.5 * (m(1, 1) + m(2, 2)); };
     const double B = moment_anisotropy(5.0);
     std::vector<std::vector<double>> columns(3);
-    for (int row = 0; row < 560; ++row) {
+    for (int row = 0; row < 1560; ++row) {
         Mat3 stress, geometric;
         double order = 0.0;
         for (int step = 0; step < 10; ++step) {

@@ -6,6 +6,9 @@
 
 namespace jostle {
 
+/// Order above which a state is called nematic. Isotropic phases of rods end below.
+inline constexpr double nematic_above = 0.4;
+
 /// Nematic order of a set of axes.
 struct NematicOrder {
     Mat3 tensor;         ///< Q = <(3 n n - I)/2>, traceless

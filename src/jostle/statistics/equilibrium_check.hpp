@@ -1,0 +1,64 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace jostle {
+
+/// How long a rod alone takes to forget how it lay. Where nothing turns, or nothing diffuses, the time is 0.
+struct FreeClocks {
+    double rotation = 0.0;   ///< 1/(2 D_R): <n(0).n(t)> has fallen to 1/e
+    double diffusion = 0.0;  ///< D^2/D_t
+};
+
+/// Rotation times that a window has to cover. The order tensor of free rods decays three times as fast as their axes:
+/// so many hold twelve of its correlation times.
+inline constexpr double least_rotation_times = 4.0;
+/// Diffusion times that it has to cover.
+inline constexpr double least_diffusion_times = 2.0;
+
+/// A column that may not drift in equilibrium.
+struct WatchedColumn {
+    std::string name;  ///< in words: "collision pressure"
+    std::vector<double> rows;
+};
+
+/// The rows of production.
+struct ProductionSeries {
+    double row_time = 0.0;
+    std::vector<WatchedColumn> watched;             ///< pressures and the like
+    std::vector<double> order;                      ///< S; left empty where axes do not matter, as of spheres
+    std::vector<std::vector<double>> order_tensor;  ///< xx xy xz yy yz zz; likewise
+};
+
+/// Whether a window of production is one of equilibrium.
+struct EquilibriumCheck {
+    enum class Verdict { reached, drifting, too_short, not_checked };
+    Verdict verdict = Verdict::not_checked;
+    std::string reason;            ///< half a sentence where it was not reached
+    double rotation_time = 0.0;    ///< the longer of that of a free rod and three times the decay of the order tensor
+    double rotation_times = 0.0;   ///< in the window; 0 where nothing turns
+    double diffusion_times = 0.0;  ///< likewise
+};
+
+/// Judges the window by clocks and by drifts.
+///
+/// Too short to tell: fewer than 4 rotation times or 2 diffusion times, or fewer than 8 independent values of the
+/// order. A rotation time is the longer of that of a free rod, which no series can shorten, and of what the series
+/// shows: the order tensor of free rods decays with 1/(6 D_R), so crowding makes it three times the correlation time of
+/// the tensor. (Of a nematic, mean S above 0.4, the director may turn for ever, and moves nothing else:
+/// there the order alone is asked.) Drifting: a watched column, or the order, has a significant `drift`.
+EquilibriumCheck check_equilibrium(const ProductionSeries& series, const FreeClocks& clocks);
+
+/// "0.13 of a rotation time", "5.2 rotation times".
+std::string in_times(double number, const std::string& what);
+
+/// The words of summary.json: "reached", "not reached", "too short to tell", "not checked".
+std::string in_words(EquilibriumCheck::Verdict verdict);
+
+/// The verdict with its reason, or with what the window covers: "too short to tell: covers 0.13 of a rotation time;
+/// ...".
+std::string in_words(const EquilibriumCheck& check);
+
+}  // namespace jostle

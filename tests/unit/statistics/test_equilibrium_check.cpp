@@ -1,0 +1,106 @@
+// When a window of production is called equilibrium: clocks first, drifts then. Seeds are fixed: these tests give the
+// same on each run.
+
+#include <doctest/doctest.h>
+
+#include "autoregressive.hpp"
+#include "jostle/statistics/equilibrium_check.hpp"
+
+using namespace jostle;
+using namespace jostle::test;
+
+namespace {
+
+using Verdict = EquilibriumCheck::Verdict;
+
+/// An isotropic state whose order tensor decays in `decay` rows and whose pressure is noise of correlation time 1.
+ProductionSeries isotropic(std::mt19937_64& generator, std::size_t rows, double decay) {
+    ProductionSeries series;
+    series.row_time = 1.0;
+    series.watched = {{"collision pressure", autoregressive(generator, rows, std::exp(-1.0))}};
+    for (int k = 0; k < 6; ++k) series.order_tensor.push_back(autoregressive(generator, rows, std::exp(-1.0 / decay)));
+    for (std::size_t row = 0; row < rows; ++row) {  // traceless, and of the size of a few hundred rods
+        const double third =
+            (series.order_tensor[0][row] + series.order_tensor[3][row] + series.order_tensor[5][row]) / 3.0;
+        for (const std::size_t diagonal : {0, 3, 5}) series.order_tensor[diagonal][row] -= third;
+        double square = 0.0;
+        for (auto& element : series.order_tensor) {
+            element[row] *= 0.02;
+            square += element[row] * element[row];
+        }
+        series.order.push_back(std::sqrt(square));
+    }
+    return series;
+}
+
+}  // namespace
+
+TEST_CASE("a window shorter than four rotation times of a free rod is too short, whatever the series show") {
+    std::mt19937_64 generator(81);
+    MESSAGE("seed 81");
+    const EquilibriumCheck found = check_equilibrium(isotropic(generator, 2000, 2.0), {15000.0, 10.0});
+    CHECK(found.verdict == Verdict::too_short);
+    CHECK(found.rotation_times == doctest::Approx(2000.0 / 15000.0));
+    CHECK(in_words(found) == "too short to tell: covers 0.13 of a rotation time; at least 4 are needed");
+}
+
+TEST_CASE("a long window of a steady state is equilibrium") {
+    std::mt19937_64 generator(82);
+    MESSAGE("seed 82");
+    int reached = 0;
+    for (int k = 0; k < 100; ++k)
+        reached += check_equilibrium(isotropic(generator, 6000, 60.0), {180.0, 50.0}).verdict == Verdict::reached;
+    // 100 correlation times. Two columns alarm falsely once in 70 times each: 3 of 100 expected, 11 once in 10,000.
+    CHECK(reached > 89);
+    const EquilibriumCheck found = check_equilibrium(isotropic(generator, 6000, 60.0), {180.0, 50.0});
+    CHECK(found.diffusion_times == doctest::Approx(120.0));
+    CHECK(found.rotation_times > 20.0);  // 33, were the decay known exactly
+    CHECK(found.rotation_times <= 33.4);
+}
+
+TEST_CASE("a crowd that turns more slowly than the window is long is too short to tell") {
+    std::mt19937_64 generator(83);
+    MESSAGE("seed 83");
+    // A rod alone would have turned a hundred times; the order tensor of the crowd has four correlation times.
+    int too_short = 0;
+    for (int k = 0; k < 100; ++k)
+        too_short += check_equilibrium(isotropic(generator, 2000, 500.0), {20.0, 20.0}).verdict == Verdict::too_short;
+    CHECK(too_short >= 90);
+}
+
+TEST_CASE("a drifting column is named") {
+    std::mt19937_64 generator(84);
+    MESSAGE("seed 84");
+    ProductionSeries series = isotropic(generator, 4000, 20.0);
+    for (std::size_t row = 0; row < 4000; ++row) series.watched[0].rows[row] += 1e-3 * static_cast<double>(row);
+    const EquilibriumCheck found = check_equilibrium(series, {60.0, 50.0});
+    CHECK(found.verdict == Verdict::drifting);
+    CHECK(in_words(found).find("not reached: the collision pressure changes by") == 0);
+}
+
+TEST_CASE("spheres are asked for diffusion and drifts only, a nematic not for its director") {
+    std::mt19937_64 generator(85);
+    MESSAGE("seed 85");
+    ProductionSeries spheres;
+    spheres.row_time = 0.1;
+    spheres.watched = {{"collision pressure", autoregressive(generator, 1000, 0.0)}};
+    CHECK(check_equilibrium(spheres, {0.0, 9.4}).verdict == Verdict::reached);
+    CHECK(in_words(check_equilibrium(spheres, {0.0, 60.0})) ==
+          "too short to tell: covers 1.67 diffusion times; at least 2 are needed");
+    ProductionSeries nematic = isotropic(generator, 2000, 5.0);
+    for (std::size_t row = 0; row < 2000; ++row) {  // the director turns from z to x, once in the window
+        const double angle = 1.5 * static_cast<double>(row) / 2000.0, S = 0.8;
+        nematic.order[row] += S;
+        nematic.order_tensor[0][row] += S * (1.5 * std::sin(angle) * std::sin(angle) - 0.5);
+        nematic.order_tensor[2][row] += S * 1.5 * std::sin(angle) * std::cos(angle);
+        nematic.order_tensor[3][row] -= 0.5 * S;
+        nematic.order_tensor[5][row] += S * (1.5 * std::cos(angle) * std::cos(angle) - 0.5);
+    }
+    CHECK(check_equilibrium(nematic, {100.0, 50.0}).verdict == Verdict::reached);
+}
+
+TEST_CASE("nothing to judge") {
+    CHECK(check_equilibrium({}, {}).verdict == Verdict::reached);  // no clock, and nothing that drifts
+    CHECK(in_words(EquilibriumCheck{}) == "not checked");
+    CHECK(check_equilibrium({}, {10.0, 10.0}).verdict == Verdict::too_short);
+}
