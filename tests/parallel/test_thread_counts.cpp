@@ -13,6 +13,9 @@
 #include "jostle/math/random.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/simulation/assemble.hpp"
+#include "jostle/simulation/monte_carlo.hpp"
+#include "jostle/simulation/push_apart.hpp"
+#include "jostle/simulation/scattered_rods.hpp"
 #include "jostle/simulation/start.hpp"
 
 using namespace jostle;
@@ -151,8 +154,16 @@ Scene crowd(std::uint64_t count, double length, double volume_fraction) {
     return scene;
 }
 
+/// Not annealed, which would take longer than the steps.
+Rods pushed_apart(const Scene& scene) {
+    Rods rods = scattered_rods(scene, cube_of(scene), std::nullopt);
+    DragMobility mobility = pushing_mobility(true);
+    REQUIRE(push_apart(rods, cube_of(scene), mobility).apart);
+    return rods;
+}
+
 void check_steps_with_every_thread_count(const Scene& scene) {
-    const Rods start = start_of(scene, 1);
+    const Rods start = pushed_apart(scene);
     const Outcome one_thread = outcome_of(scene, start, 30, 1);
     REQUIRE(one_thread.rods.size() > parallel::serial_limit);  // else no thread would have been started
     REQUIRE(one_thread.contacts.back() > parallel::serial_limit);
@@ -180,9 +191,27 @@ TEST_CASE("swimmers that tumble and turn round: the same bits after 30 steps wit
 }
 
 TEST_CASE("a random start has the same bits with 1, 2 and 4 threads") {
-    const Scene scene = crowd(600, 5.0, 0.2);
+    const Scene scene = crowd(parallel::serial_limit + 8, 5.0, 0.16);  // which is annealed
     const Rods one_thread = start_of(scene, 1);
     for (const int threads : {2, 4}) check_same(one_thread, start_of(scene, threads));
+}
+
+TEST_CASE("Monte Carlo has the same bits with 1, 2 and 4 threads, which move rods at the same time") {
+    Scene scene = crowd(crowd_count, 1.0, 0.3);  // boxes of six to nine times the range of a rod
+    const auto moved = [&](int threads) {
+        const ThreadCount thread_count(threads);
+        Rods rods = scattered_rods(scene, cube_of(scene), std::nullopt);
+        MonteCarlo monte_carlo(rods, cube_of(scene), scene.seed);
+        for (int k = 1; k <= 10; ++k) monte_carlo.sweep(0.3 * k, 4);
+        return std::pair(rods, monte_carlo.overlapping_rods());
+    };
+    const auto [one_thread, overlapping] = moved(1);
+    CHECK(overlapping > 0);
+    for (const int threads : {2, 4}) {
+        const auto [rods, as_many] = moved(threads);
+        check_same(one_thread, rods);
+        CHECK(overlapping == as_many);
+    }
 }
 
 TEST_CASE("the number of threads is at least one, and what was set") {

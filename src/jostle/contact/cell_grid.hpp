@@ -24,6 +24,13 @@ public:
 
     std::size_t cell_of(const Vec3& centre) const;
 
+    /// Where a cell stands along each direction.
+    std::array<int, 3> place_of(std::size_t cell) const;
+
+    int cells_along(std::size_t direction) const { return count_[direction]; }
+    /// So many cells to each side does `visit` reach.
+    int reach_along(std::size_t direction) const { return width_[direction]; }
+
     /// The images that `visit` names reach so far to both sides of 0.
     Image farthest_image() const {
         Image farthest;
@@ -51,8 +58,6 @@ public:
     }
 
 private:
-    std::array<int, 3> place_of(std::size_t cell) const;
-
     int first(const std::array<int, 3>& place, std::size_t k) const {
         const int cell = place[k] - width_[k];
         return periodic_[k] ? cell : std::max(cell, 0);

@@ -33,6 +33,15 @@ inline double pair_gap(const PairGeometry& pair) {
     return norm(nearest_points(pair).separation) - pair.radii;
 }
 
+/// Whether a pair is nearer than touching. Most that are not are told apart by the distance of the lines through their
+/// axes.
+inline bool pair_overlaps(const PairGeometry& pair) {
+    const Vec3 across = cross(pair.axis_i, pair.axis_j);
+    const double shift = dot(pair.between, across);
+    if (shift * shift > 1.001 * pair.radii * pair.radii * squared_norm(across)) return false;
+    return pair_gap(pair) < 0.0;
+}
+
 /// Appends the contacts of a pair: its nearest points, and for nearly parallel rods the ends of the stretch along which
 /// they lie side by side, where they are nearer than `range` beyond touching
 /// (docs/decisions/0003-two-point-contacts.md):

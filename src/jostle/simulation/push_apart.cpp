@@ -39,6 +39,12 @@ void move(Rods& rods, const Box& box, const ContactSolution& solution, double li
 
 }  // namespace
 
+DragMobility pushing_mobility(bool turning) {
+    return DragMobility([turning](double length, double diameter) {
+        return RodMobility{1.0, 1.0, turning ? 12.0 / (length * length + diameter * diameter) : 0.0};
+    });
+}
+
 PushApartResult push_apart(Rods& rods, const Box& box, Mobility& mobility) {
     PushApartResult result;
     mobility.update(rods);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "jostle/mobility/mobility.hpp"
+#include "jostle/mobility/drag_mobility.hpp"
 #include "jostle/rods/box.hpp"
 
 namespace jostle {
@@ -10,6 +10,10 @@ struct PushApartResult {
     double overlap = 0.0;  ///< the largest one left, a length
     int rounds = 0;        ///< contact problems solved
 };
+
+/// A mobility for starts, that needs no fluid: unit drag, and the rotation that a thin rod of that drag would have, by
+/// which its ends go as far as its centre does, or none.
+DragMobility pushing_mobility(bool turning);
 
 /// Moves overlapping rods until none overlaps, by contact forces alone: repeated contact problems without any known
 /// motion.

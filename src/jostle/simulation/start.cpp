@@ -6,14 +6,10 @@
 #include <cmath>
 
 #include "jostle/error/input_error.hpp"
-#include "jostle/mobility/drag_mobility.hpp"
-#include "jostle/motion/brownian_motion.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/rods/space_filling_order.hpp"
 #include "jostle/simulation/largest_overlap.hpp"
-#include "jostle/simulation/push_apart.hpp"
 #include "jostle/simulation/scattered_rods.hpp"
-#include "jostle/simulation/simulation.hpp"
 
 namespace jostle {
 
@@ -22,57 +18,14 @@ namespace {
 /// Overlaps below this (in D) in a start read from a file are taken for rounding of the file's decimals.
 constexpr double file_overlap = 1e-3;
 
-/// Of the contact problems while shaking, in D.
-constexpr double shaking_tolerance = 1e-3;
-
-/// A mobility only for pushing apart: unit drag, and the rotation that a thin rod of that drag would have, or none.
-DragMobility pushing_mobility(bool turning) {
-    return DragMobility([turning](double length, double diameter) {
-        return RodMobility{1.0, 1.0, turning ? 12.0 / (length * length + diameter * diameter) : 0.0};
-    });
-}
-
-/// A stretch of Brownian steps after pushing apart.
-struct Shaking {
-    int steps;
-    double rms;  ///< of a step, in D
-    bool corrected;
-};
-
-/// Rods that were pushed apart lie in contact far more often than in equilibrium, and forget it only after moving by
-/// about a diameter. Brownian steps much larger than those of a run, which need not be accurate, take them there
-/// quickly. The time-step correction comes in once the rods are loose: its shift asks for gaps that they do not have
-/// before.
-constexpr std::array<Shaking, 2> shaking = {{{100, 0.15, false}, {100, 0.06, true}}};
-
-void shake(Rods& rods, const Box& box, const Shaking& stretch, Clock clock, std::uint64_t seed) {
-    auto mobility = std::make_unique<DragMobility>(pushing_mobility(true));
-    mobility->update(rods);
-    SimulationSettings settings;
-    settings.seed = seed;
-    settings.kT = 1.0;
-    const double rms = stretch.rms * rods.diameter.front();
-    settings.time_step = 0.5 * rms * rms;  // unit mobility and kT: rms step sqrt(2 dt)
-    settings.brownian_correction = stretch.corrected;
-    settings.lcp.tolerance = shaking_tolerance * rods.diameter.front();
-    settings.lcp.max_iterations = 1000;
-    std::vector<std::unique_ptr<Motion>> motions;
-    motions.push_back(std::make_unique<BrownianMotion>(settings.kT, *mobility));
-    Simulation simulation(box, std::move(rods), clock, std::move(mobility), std::move(motions), settings);
-    for (int k = 0; k < stretch.steps && simulation.step().status == LcpStatus::converged; ++k) continue;
-    rods = simulation.rods();
-}
-
-Rods pushed_apart(Rods rods, const Box& box, bool turning, const Scene& scene) {
-    DragMobility mobility = pushing_mobility(turning);
-    PushApartResult result = push_apart(rods, box, mobility);
-    if (result.apart && result.rounds > 0 && turning) {
-        std::uint64_t step = std::uint64_t{1} << 39;  // random numbers of its own, far from those of the run
-        for (const Shaking& stretch : shaking) {
-            shake(rods, box, stretch, {step, 0.0}, scene.seed);
-            result = push_apart(rods, box, mobility);
-            step += static_cast<std::uint64_t>(stretch.steps);
-        }
+Rods at_random(Rods rods, const Box& box, bool turning, const Scene& scene, const AnnealingWatch& watch) {
+    PushApartResult result;
+    result.overlap = largest_overlap(rods, box);
+    if (result.overlap > 0.0 && turning)
+        result = anneal(rods, box, scene.seed, watch);
+    else {
+        DragMobility mobility = pushing_mobility(turning);
+        result = push_apart(rods, box, mobility);
     }
     if (!result.apart) {
         throw InputError(
@@ -86,7 +39,7 @@ Rods pushed_apart(Rods rods, const Box& box, bool turning, const Scene& scene) {
                                    : "Use a lower volume fraction, a roomier box, or start = \"lattice\""});
     }
     rods.image.assign(rods.size(), Image{0, 0, 0});
-    return reordered(rods, id_order(rods));  // shaking has renumbered them
+    return reordered(rods, id_order(rods));  // annealing has renumbered them
 }
 
 /// Sites along the rods (direction 0) and across (1, 2).
@@ -185,13 +138,13 @@ void require_lattice_fits(const Scene& scene, const Box& box) {
     if (scene.rods.start == StartKind::lattice) lattice_of(scene, box);
 }
 
-Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& from_file) {
+Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& from_file, const AnnealingWatch& watch) {
     parallel::suit_thread_count(parallel::worthwhile_thread_count(scene.rods.count));
     switch (scene.rods.start) {
         case StartKind::random:
-            return pushed_apart(scattered_rods(scene, box, std::nullopt), box, true, scene);
+            return at_random(scattered_rods(scene, box, std::nullopt), box, true, scene, watch);
         case StartKind::aligned:
-            return pushed_apart(scattered_rods(scene, box, normalised(scene.rods.axis)), box, false, scene);
+            return at_random(scattered_rods(scene, box, normalised(scene.rods.axis)), box, false, scene, watch);
         case StartKind::lattice:
             return rods_in_rows(scene, box);
         case StartKind::file:

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "jostle/rods/box.hpp"
+#include "jostle/simulation/anneal.hpp"
 #include "jostle/simulation/scene.hpp"
 
 namespace jostle {
@@ -10,13 +11,13 @@ namespace jostle {
 /// The rods of a scene before the first step, with ids 0, 1, 2, ...; a pure function of the scene (seed included).
 ///
 /// "random":  centres and axes uniform, drawn anew where rods overlap; what still overlaps after 100 draws (1000 where
-///            there are few rods) is pushed apart by contact forces, and shaken by large Brownian steps, which leaves
-///            the rods close to equilibrium;
+///            there are few rods) is annealed, all of it: `watch` sees how;
 /// "aligned": centres uniform, all axes along `rods.axis`, pushed apart without turning;
 /// "lattice": rows of rods along `rods.axis` (a direction of the box), evenly spaced;
 /// "file":    `from_file`, checked for overlaps.
 /// Throws InputError where the rods do not fit.
-Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& from_file = std::nullopt);
+Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& from_file = std::nullopt,
+                const AnnealingWatch& watch = {});
 
 /// Whether the rods of a scene with start = "lattice" fit into the box in rows, without making them. Errors:
 /// InputError.
