@@ -29,9 +29,6 @@ def text(run, folder, curves, view, rods, tiles, notes):
     """curves: of the plots; view: (file name, caption) of the still or None; rods: of the page, or None; tiles: numbers that
     come first, (words, number, unit, note); notes: what the page could not show."""
     plotting = viewer_parts.plotting()
-    notes = list(notes)
-    if plotting is None:
-        notes.append(viewer_parts.MISSING)
     title = html.escape(run.title)
     parts = [f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">{MARK}\n'
              '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
@@ -55,7 +52,7 @@ def subtitle(run):
     time = " ".join(part for part in (f"{factor * last['time']:.4g}", unit) if part)
     if run.is_colony:
         return f"{last['N']:.0f} cells from {run.series['N'][0]:.0f}, time {time}, {last['step']:.0f} steps"
-    kind = "rods" if run.scene["rods"].get("length", 1.0) != 0 else "spheres"
+    kind = "cells" if run.grows else "rods" if run.scene["rods"].get("length", 1.0) != 0 else "spheres"
     return f"{last['N']:.0f} {kind} at volume fraction {last['phi']:.4g}, time {time}, {last['step']:.0f} steps"
 
 
@@ -113,7 +110,7 @@ def plots(folder, curves):
 
 def told_curve(curve):
     """A curve as the programs of the page take it, in at most as many parts as a screen has columns."""
-    from plots import of_parts
+    from plots import limits, of_parts
 
     time, low, middle, high = of_parts(curve, most=1500)
     ranged = low is not None
@@ -122,6 +119,8 @@ def told_curve(curve):
     told = {"name": curve.name, "title": curve.title, "label": with_unit(curve.label, curve.unit), "unit": curve.unit,
             "rows": rows, "ranged": ranged, "logarithmic": curve.logarithmic, "from_zero": curve.from_zero,
             "whole": curve.whole}
+    if curve.average and not curve.logarithmic:
+        told["range"] = [_number(end) for end in limits(curve, room=0.1)]
     if curve.average:
         told.update(mean=curve.average["mean"], error=curve.average.get("standard_error"),
                     window=[float(curve.time[row]) for row in curve.window])

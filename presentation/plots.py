@@ -94,7 +94,8 @@ def set_limits(axes, curve):
         axes.yaxis.set_major_locator(MaxNLocator(integer=True))
 
 
-def limits(curve):
+def limits(curve, room=0.35):
+    """What the axis shows: all rows that count, and `room` above them."""
     lowest, highest = (curve.values if limit is None else limit for limit in (curve.low, curve.high))
     low, high = np.nanmin(lowest), np.nanmax(highest)
     if curve.average:
@@ -105,4 +106,4 @@ def limits(curve):
     if curve.from_zero:
         low = min(low, 0.0)
     span = high - low
-    return low - (0.02 if curve.from_zero else 0.08) * span, high + (0.35 if curve.average else 0.1) * span
+    return low - (0.02 if curve.from_zero else 0.08) * span, high + (room if curve.average else 0.1) * span

@@ -104,6 +104,7 @@ def report():
     import curves
     import page
     import plots
+    import viewer_parts
     from output_place import place, replaced_folder
     from run_folder import read_run
 
@@ -115,7 +116,7 @@ def report():
         drawn, tiles = colony_of(run, rods) if run.is_colony else (curves.chosen(run), page.average_tiles(run))
         for curve in drawn:
             plots.draw(curve, run.in_unit("time")[1], folder)
-        notes += missing
+        notes += missing + ([] if viewer_parts.plotting() else [viewer_parts.MISSING])
         (folder / page.NAME).write_text(page.text(run, folder, drawn, still, rods, tiles, notes), encoding="utf-8")
     for note in notes:
         print(f"jostle: {note}", file=sys.stderr)

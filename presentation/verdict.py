@@ -3,9 +3,12 @@
 EQUILIBRIUM = {"reached": ("good", "Equilibrium was reached"), "not reached": ("bad", "Equilibrium was not reached"),
                "too short to tell": ("bad", "Too short to tell whether this is equilibrium"),
                "not checked": ("open", "Whether this is equilibrium was not checked")}
-# What equilibrium demands, and how it is told.
-CHECKS = {"total_stress_ratio": "The whole stress is isotropic", "collision_stress_ratio": "The collision stress fits the order"}
-JUDGED = {True: ("good", ""), False: ("bad", "Not so: "), None: ("open", "Cannot be judged: ")}
+# What equilibrium demands: as it is told where a run agrees, disagrees, and has no error bar to judge by.
+CHECKS = {"total_stress_ratio": ("The whole stress is isotropic", "The whole stress is not isotropic",
+                                 "Whether the whole stress is isotropic cannot be told"),
+          "collision_stress_ratio": ("The collision stress fits the order", "The collision stress does not fit the order",
+                                     "Whether the collision stress fits the order cannot be told")}
+JUDGED = {True: "good", False: "bad", None: "open"}
 
 
 def verdict(run):
@@ -34,13 +37,16 @@ def _equilibrium(run):
 
 
 def _checks(run):
-    for name, check in run.summary.get("checks", {}).items():
+    for name, words in CHECKS.items():
+        check = run.summary.get("checks", {}).get(name)
+        if check is None:
+            continue
         measured, error = check["measured"]["mean"], check["measured"].get("standard_error")
         if measured is None:
             continue
-        state, begin = JUDGED[check.get("agree")]
+        state = JUDGED[check.get("agree")]
         ratio = f"{measured:.4g}" + ("" if error is None else f" ± {error:.2g}")
-        yield (state, begin + CHECKS.get(name, name.replace("_", " ")),
+        yield (state, words[list(JUDGED.values()).index(state)],
                f"along over across the director {ratio}; equilibrium has {expected_range(check)}")
 
 

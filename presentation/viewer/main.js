@@ -40,8 +40,13 @@ async function showRods(figure) {
     canvas.remove();
     throw reason;
   }
-  for (const one of [...still, figure.querySelector(".still-caption")]) if (one) one.hidden = true;
-  figure.classList.add("turns");
+  const stands = (yes) => {
+    for (const one of [...still, figure.querySelector(".still-caption")]) if (one) one.hidden = !yes;
+    canvas.hidden = yes;
+    figure.classList.toggle("turns", !yes);
+  };
+  stands(false);
+  canvas.addEventListener("webglcontextlost", () => stands(true));
   stage.insertAdjacentHTML("beforeend", '<p class="hint">drag to turn · click, then scroll to zoom</p>');
   const compass = new Compass(stage, told.length_unit);
   view.onDraw = () => compass.show(view.camera, canvas.clientHeight);

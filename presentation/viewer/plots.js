@@ -33,6 +33,7 @@ export class Plots {
       fillAlpha: 0.25,
       logscale: curve.logarithmic,
       includeZero: curve.from_zero,
+      valueRange: curve.range ?? null,
       xlabel: time.unit ? `${time.label} (${time.unit})` : time.label,
       ylabel: curve.label,
       xLabelHeight: 16,

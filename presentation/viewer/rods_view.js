@@ -74,7 +74,7 @@ export class RodsView {
         const place = corner.map((share, k) => (65535 * (low[k] + share * size[k] - origin[k])) / span[k]);
         instances.push(...place, ...alongAxis(axis), (65535 * size[axis]) / longest, 65535, 0);
       }
-    const thickness = 0.0022 * Math.hypot(...size);
+    const thickness = 0.003 * Math.hypot(...size);
     this.edges.set(new Uint16Array(instances.map(Math.round)),
                    { low: origin, span, length: [0, longest], diameter: [0, thickness] });
     this.edges.setColours(repeated(EDGE, instances.length / STRIDE));

@@ -138,6 +138,18 @@ def test_without_povray(finished_copy):
     assert {path.name for path in (finished_copy / "run/report").iterdir()} == PLOTS | {"report.html"}
 
 
+def test_without_dygraphs(finished_copy):
+    """Plots stay pictures, and one line says what to install."""
+    program = ("import sys, pathlib; sys.path.insert(0, sys.argv.pop(1)); import viewer_parts, report; "
+               "viewer_parts.PLACES = (pathlib.Path('/nowhere'),); report.report()")
+    result = subprocess.run([sys.executable, "-B", "-c", program, str(PRESENTATION), "--width=120", "run"], cwd=finished_copy,
+                            capture_output=True, text=True, check=False, timeout=120)
+    assert result.returncode == 0
+    assert result.stderr.startswith("jostle: Plots do not zoom") and "apt-get install libjs-dygraphs" in result.stderr
+    page = (finished_copy / "run/report/report.html").read_text()
+    assert "apt-get install libjs-dygraphs" in page and page.count("<img alt=") == len(PLOTS) + 1
+
+
 def test_a_povray_that_fails(finished_copy):
     programs = finished_copy / "programs"
     programs.mkdir()
