@@ -21,8 +21,7 @@ class Tensor:
 
     def __init__(self, run, series, convention):
         names = [f"{CONVENTIONS[convention]}_{a}{b}" for a in "xyz" for b in "xyz"]
-        kinetic = run.summary["stress_kinetic"]["mean"]
-        self.rows = numpy.array([series[name] for name in names]).T.reshape(-1, 3, 3) / kinetic
+        self.rows = _rows(run, series, names)
 
     def pressure(self):
         return blocked(numpy.trace(self.rows, axis1=1, axis2=2) / 3)
@@ -41,6 +40,19 @@ class Tensor:
         odd = self.rows - self.rows.transpose(0, 2, 1)
         trace = numpy.trace(self.rows.mean(axis=0))
         return numpy.abs(odd).max() / trace, numpy.abs(odd.mean(axis=0)).max() / trace
+
+
+def whole_stress(run, series):
+    """Kinetic, orientation and collision part together (theory, eq. 1.19)."""
+    whole = Tensor(run, series, "rigid body")
+    symmetric = [f"stress_orientation_{min(a, b)}{max(a, b)}" for a in "xyz" for b in "xyz"]
+    whole.rows = whole.rows + _rows(run, series, symmetric) + numpy.eye(3)
+    return whole
+
+
+def _rows(run, series, names):
+    """(rows, 3, 3) of nine columns, over n kT."""
+    return numpy.array([series[name] for name in names]).T.reshape(-1, 3, 3) / run.summary["stress_kinetic"]["mean"]
 
 
 def predicted_normal_difference(run, series, director):

@@ -88,8 +88,10 @@ def read(path):
             "seed": int(file["parameters/seed"][()]),
             "scene": np.atleast_1d(file["parameters/scene"][()])[0].decode(),
         }
-        if "observables/stress" in file:
-            stress = check_element(file["observables/stress"])
+        if "observables" in file:
+            assert set(file["observables"]) == {"stress_collision", "stress_orientation"}
+            check_element(file["observables/stress_orientation"])
+            stress = check_element(file["observables/stress_collision"])
             assert stress.shape[1:] == (3, 3)
             found["stress_unit"] = stress.attrs.get("unit", b"").decode()
             found["stress_mean"] = stress[()].mean(axis=0).tolist()

@@ -83,6 +83,11 @@ def test_a_done_run(averaged):
     assert float(error) == pytest.approx(summary["Z"]["standard_error"], rel=0.05)
     assert float(n_eff) == pytest.approx(summary["Z"]["n_eff"], abs=0.5)
     assert numbers_after(page, "pressure")[-1] == "kT/D³"
+    for words, check in (("stress", "total_stress_ratio"), ("collision stress", "collision_stress_ratio")):
+        ratio, error, _, verdict = numbers_after(page, f"{words} along/across the director")
+        measured = summary["checks"][check]["measured"]
+        assert float(ratio) == pytest.approx(measured["mean"], abs=measured["standard_error"])
+        assert float(error) == pytest.approx(measured["standard_error"], rel=0.05) and verdict == "agrees"
     assert "The run is not done" not in page
     after = snapshot(averaged / "run")
     assert {name: after[name] for name in before} == before

@@ -9,6 +9,7 @@
 #include "jostle/io/durable_file.hpp"
 #include "jostle/io/h5md_element.hpp"
 #include "jostle/io/hdf5_objects.hpp"
+#include "jostle/io/series_columns.hpp"
 #include "jostle/io/trajectory_journal.hpp"
 #include "jostle/stress/orientation_stress.hpp"
 
@@ -128,20 +129,27 @@ void write_particles(hid_t file, const std::string& journal_path, const JournalS
     }
 }
 
-void write_stress(hid_t file, const SeriesTable& series, const H5mdAttributes& attributes) {
-    const Hdf5Id observables = make_group(file, "observables");
+/// One tensor of each row of the series, from its nine columns.
+void write_tensor(hid_t observables, const char* name, const std::array<const char*, 9>& columns,
+                  const SeriesTable& series, const H5mdAttributes& attributes) {
     std::array<const std::vector<double>*, 9> entries;
-    for (std::size_t k = 0; k < 9; ++k)
-        entries[k] = &series.column(std::string("stress_") + "xyz"[k / 3] + "xyz"[k % 3]);
+    for (std::size_t k = 0; k < 9; ++k) entries[k] = &series.column(columns[k]);
     const std::vector<double>& step = series.column("step");
     const std::vector<double>& time = series.column("time");
-    TimedElement stress(observables, "stress", H5T_NATIVE_DOUBLE, {series.rows(), 3, 3}, nullptr,
-                        attributes.stress_unit, attributes.time_unit);
+    TimedElement tensor(observables, name, H5T_NATIVE_DOUBLE, {series.rows(), 3, 3}, nullptr, attributes.stress_unit,
+                        attributes.time_unit);
     for (std::size_t row = 0; row < series.rows(); ++row) {
         std::array<double, 9> value;
         for (std::size_t k = 0; k < 9; ++k) value[k] = (*entries[k])[row];
-        stress.write(row, static_cast<std::uint64_t>(step[row]), time[row], 3, value.data());
+        tensor.write(row, static_cast<std::uint64_t>(step[row]), time[row], 3, value.data());
     }
+}
+
+void write_stress(hid_t file, const SeriesTable& series, const H5mdAttributes& attributes) {
+    const Hdf5Id observables = make_group(file, "observables");
+    const auto& [xx, xy, xz, yy, yz, zz] = orientation_stress_column_names;
+    write_tensor(observables, "stress_collision", stress_column_names, series, attributes);
+    write_tensor(observables, "stress_orientation", {xx, xy, xz, xy, yy, yz, xz, yz, zz}, series, attributes);
 }
 
 void write_file(const std::string& path, const std::string& journal_path, const JournalShape& shape,

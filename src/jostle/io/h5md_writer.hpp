@@ -31,7 +31,8 @@ struct H5mdAttributes {
 /// Where N varies, the rows that are not there have id -1 (the fill value) and NaN.
 /// A journal with stress gives each rod its part of the collision stress and, at the frame's axes, its orientation
 /// stress.
-/// series: if given, /observables/stress is made from its columns step, time, stress_xx ... stress_zz.
+/// series: if given, /observables/stress_collision and stress_orientation are made from its columns step, time,
+/// stress_xx ... stress_zz and stress_orientation_xx ... stress_orientation_zz.
 /// Errors: InputError for a missing or damaged journal; DiskError, and the old file is still there.
 void write_h5md(const std::string& journal_path, const std::string& h5md_path, const H5mdAttributes& attributes,
                 const SeriesTable* series = nullptr);

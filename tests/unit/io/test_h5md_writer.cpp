@@ -12,6 +12,7 @@
 #include "jostle/error/input_error.hpp"
 #include "jostle/io/durable_file.hpp"
 #include "jostle/io/h5md_writer.hpp"
+#include "jostle/io/series_columns.hpp"
 #include "jostle/io/trajectory_journal.hpp"
 #include "some_rods.hpp"
 #include "temporary_folder.hpp"
@@ -36,6 +37,7 @@ SeriesTable stress_series(std::size_t rows) {
     SeriesTable table;
     table.names = {"step",      "time",      "stress_xx", "stress_xy", "stress_xz", "stress_yx",
                    "stress_yy", "stress_yz", "stress_zx", "stress_zy", "stress_zz"};
+    for (const char* name : orientation_stress_column_names) table.names.push_back(name);
     table.columns.resize(table.names.size());
     for (std::size_t row = 0; row < rows; ++row)
         for (std::size_t k = 0; k < table.names.size(); ++k)
@@ -147,7 +149,7 @@ TEST_CASE("the structure is that of H5MD 1.1") {
     CHECK(file.text_attribute("particles/rods/position/value", "unit") == "um");
     CHECK(file.text_attribute("particles/rods/position/time", "unit") == "s");
     CHECK(file.text_attribute("particles/rods/length/value", "unit") == "um");
-    CHECK(file.text_attribute("observables/stress/value", "unit") == "pN um-2");
+    CHECK(file.text_attribute("observables/stress_collision/value", "unit") == "pN um-2");
     CHECK(file.text_attribute("particles/rods/box", "boundary") == std::string("periodicnone\0\0\0\0periodic", 24));
     CHECK(file.text("parameters/scene") == attributes.scene);
     CHECK(file.text("parameters/resolved_scene") == attributes.resolved_scene);
@@ -167,10 +169,14 @@ TEST_CASE("the structure is that of H5MD 1.1") {
         H5Dclose(scale);
         H5Dclose(value);
     }
-    const auto stress = file.read<double>("observables/stress/value", H5T_NATIVE_DOUBLE, {5, 3, 3});
+    const auto stress = file.read<double>("observables/stress_collision/value", H5T_NATIVE_DOUBLE, {5, 3, 3});
     for (std::size_t row = 0; row < 5; ++row)
         for (std::size_t k = 0; k < 9; ++k) CHECK(stress[9 * row + k] == series.columns[2 + k][row]);
-    CHECK(file.read<std::int64_t>("observables/stress/step", H5T_NATIVE_INT64, {5})[4] == 20);
+    const auto orientation = file.read<double>("observables/stress_orientation/value", H5T_NATIVE_DOUBLE, {5, 3, 3});
+    const std::size_t column[] = {0, 1, 2, 1, 3, 4, 2, 4, 5};  // of the six, symmetric
+    for (std::size_t row = 0; row < 5; ++row)
+        for (std::size_t k = 0; k < 9; ++k) CHECK(orientation[9 * row + k] == series.columns[11 + column[k]][row]);
+    CHECK(file.read<std::int64_t>("observables/stress_collision/step", H5T_NATIVE_INT64, {5})[4] == 20);
 }
 
 TEST_CASE("a number of rods that varies: rows without a rod have the fill value as id") {
@@ -248,8 +254,8 @@ TEST_CASE("a flip of any bit is detected") {
         for (const char* name :
              {"particles/rods/position/value", "particles/rods/position/step", "particles/rods/position/time",
               "particles/rods/image/value", "particles/rods/orientation/value", "particles/rods/length/value",
-              "particles/rods/diameter/value", "particles/rods/id/value", "observables/stress/value",
-              "observables/stress/step", "observables/stress/time"}) {
+              "particles/rods/diameter/value", "particles/rods/id/value", "observables/stress_collision/value",
+              "observables/stress_collision/step", "observables/stress_collision/time"}) {
             const hid_t dataset = H5Dopen2(file.id, name, H5P_DEFAULT);
             const hid_t space = H5Dget_space(dataset);
             hsize_t chunks = 0;
