@@ -29,8 +29,9 @@ namespace {
 
 /// Steps of large assemblies take long: a crash shall cost no more than this.
 constexpr std::chrono::minutes longest_between_checkpoints{10};
-/// Wall time kept for the end of a run, beside its last checkpoint: between two steps, and within one (s).
-constexpr double kept_between_steps = 1.0, kept_within_step = 0.5;
+/// Wall time kept for the end of a run, beside its last checkpoint: between two steps, and within one (s). Of a short
+/// wall time a part is left for a step: a run that is started again and again shall get on.
+constexpr double kept_between_steps = 1.0, kept_within_step = 0.5, largest_part_kept = 0.25;
 
 H5mdAttributes trajectory_attributes(const RunScene& run_scene, const std::string& command_line) {
     const Scene& scene = run_scene.scene;
@@ -65,7 +66,9 @@ Run::Run(const RunOptions& options, const RunScene& scene, Simulation& simulatio
       record_(directory, options),
       progress_(options.quiet || options.json) {
     simulation_.interrupt_when(
-        [this] { return stop_request::signal_received() != 0 || wall_time_is_over(kept_within_step); });
+        [this, kept = std::min(kept_within_step, largest_part_kept * options.wall_time.value_or(0.0))] {
+            return stop_request::signal_received() != 0 || wall_time_is_over(kept);
+        });
 }
 
 ExitCode Run::go() {

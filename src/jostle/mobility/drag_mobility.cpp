@@ -13,8 +13,8 @@ namespace {
 
 void apply_to_rod(const RodMobility& mobility, const Vec3& axis, const Vec3& force, const Vec3& torque, Vec3& linear,
                   Vec3& angular) {
-    const double along = (mobility.parallel - mobility.perpendicular) * dot(axis, force);
-    linear = mobility.perpendicular * force + along * axis;
+    const double more_along = (mobility.parallel - mobility.perpendicular) * dot(axis, force);
+    linear = mobility.perpendicular * force + more_along * axis;
     angular = mobility.rotational * (torque - dot(axis, torque) * axis);
 }
 
