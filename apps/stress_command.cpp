@@ -52,14 +52,12 @@ std::optional<Box> box_of(const StressOptions& options) {
                               .problem = "has an edge that is not positive",
                               .allowed = "three lengths, > 0"});
     if (options.periodic == "none") return box;
-    for (const char direction : options.periodic) {
-        if (direction < 'x' || direction > 'z')
-            throw InputError({.key = "--periodic",
-                              .value = options.periodic,
-                              .problem = "names no directions",
-                              .allowed = "letters of xyz, or none"});
-        box.periodic[static_cast<std::size_t>(direction - 'x')] = true;
-    }
+    if (options.periodic.empty() || options.periodic.find_first_not_of("xyz") != std::string::npos)
+        throw InputError({.key = "--periodic",
+                          .value = options.periodic,
+                          .problem = "names no directions",
+                          .allowed = "letters of xyz, or none"});
+    for (const char direction : options.periodic) box.periodic[static_cast<std::size_t>(direction - 'x')] = true;
     return box;
 }
 

@@ -346,7 +346,8 @@ def test_options_that_are_refused(tmp_path):
     write_both(tmp_path, TWO_SPHERES)
     assert 'Did you mean "rigid_body"?' in refusal(tmp_path, "--convention", "rigidbody")
     assert "needs a point on the centre line of each body" in refusal(tmp_path, "--convention", "centre_line")
-    assert "names no directions" in refusal(tmp_path, "--box", 3, 3, 3, "--periodic", "xw")
+    for periodic in ("xw", ""):
+        assert "names no directions" in refusal(tmp_path, "--box", 3, 3, 3, "--periodic", periodic)
     assert "an edge that is not positive" in refusal(tmp_path, "--box", 3, -3, 3)
     assert "would overwrite a table" in refusal(tmp_path, "--per-body", "bodies.csv")
     for options in (["--volume", 0], ["--volume", "nan"], ["--volume", 2, "--box", 1, 1, 1], ["--periodic", "x"]):
