@@ -128,7 +128,7 @@ bool Growth::divides(const Rods& rods, std::size_t row, std::uint64_t step, doub
 
 bool Growth::dies(std::uint64_t id, std::uint64_t step, double time_step) const {
     const double interval = static_cast<double>(law_.division_every) * time_step;
-    return uniform4({seed_, step, Stream::death, id}, 0)[0] < -std::expm1(-law_.death_rate * interval);
+    return happens({seed_, step, Stream::death, id}, -std::expm1(-law_.death_rate * interval));
 }
 
 LineageEvent Growth::split(Rods& rods, std::size_t row, const Box& box, std::uint64_t step) const {

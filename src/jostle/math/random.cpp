@@ -126,6 +126,13 @@ std::array<double, 4> uniform4(const RandomKey& key, std::uint32_t draw) {
             open_unit_interval(words[3])};
 }
 
+bool happens(const RandomKey& key, double probability) {
+    const Generator::ctr_type words = Generator()(counter_of(key, 0), philox_key(key));
+    // One of 2^64 numbers in (0, 1), of which a double keeps 53 bits.
+    const double uniform = (static_cast<double>(words[0]) + (static_cast<double>(words[1]) + 0.5) * 0x1p-32) * 0x1p-32;
+    return uniform < probability;
+}
+
 double exponential(double uniform) {
     return -logarithm(uniform);
 }

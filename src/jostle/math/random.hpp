@@ -35,6 +35,9 @@ struct RandomKey {
 /// Four independent uniform numbers in the open interval (0, 1), spaced by 2^-32.
 std::array<double, 4> uniform4(const RandomKey& key, std::uint32_t draw);
 
+/// Whether an event of this probability happens: draw 0 of the key. Right for any probability, also far below 2^-32.
+bool happens(const RandomKey& key, double probability);
+
 /// A number of the exponential distribution with mean 1, at most 22.9, from a uniform one: the time between two events
 /// of a Poisson process of rate 1.
 double exponential(double uniform);

@@ -111,3 +111,22 @@ TEST_CASE("exponential numbers are -ln u of the uniform ones") {
     CHECK(worst < 1e-14);
     CHECK(largest < 22.9);
 }
+
+TEST_CASE("events happen as often as their probability says, which may be far below 2^-32") {
+    constexpr int keys = 100000;
+    int happened = 0, between = 0;
+    for (std::uint64_t id = 0; id < keys; ++id) {
+        const RandomKey key{7, 3, Stream::test, id};
+        happened += happens(key, 0.3) ? 1 : 0;
+        CHECK(!happens(key, 0.0));
+        CHECK(happens(key, 1.0));
+        // The number that is compared, by halving: none of those spaced by 2^-32, but near that of `uniform4`.
+        if (id >= 100) continue;
+        double below = 0.0, above = 1.0;
+        while (above - below > 0x1p-50) (happens(key, 0.5 * (below + above)) ? above : below) = 0.5 * (below + above);
+        CHECK(std::fabs(above - uniform4(key, 0)[0]) <= 0x1p-32);
+        between += std::fabs(std::remainder(above * 0x1p32 - 0.5, 1.0)) > 1e-3 ? 1 : 0;
+    }
+    CHECK(std::fabs(happened - 0.3 * keys) < 5.0 * std::sqrt(0.21 * keys));  // false alarm 6e-7
+    CHECK(between > 90);
+}
