@@ -78,7 +78,7 @@ ExitCode resume_run(const RunOptions& options, const RunScene& scene, const RunD
     require_same_springs(
         checkpoint,
         in_scene_file(scene.path, [&] { return springs_from_file(scene.scene, scene.path, checkpoint.rods); }),
-        springs_path(scene.scene, scene.path));
+        scene.scene.motion.reversal_rate > 0.0, springs_path(scene.scene, scene.path));
     const StepSums sums = StepSums::from_numbers(checkpoint.accumulators, scene.scene);
     RunFiles files(directory, scene.scene, scene.resolved, checkpoint);
     write_scene(scene, directory);  // it may have another end, and what was there may be damaged

@@ -46,9 +46,10 @@ def test_series_and_summary(tmp_path):
     assert "that of springs" in next(entry for entry in described if entry["name"] == "pressure")["definition"]
 
 
-def test_stopped_killed_and_resumed(tmp_path):
-    """The springs hold the images that they began with, and go on to the same bits, also across renumbered rows."""
-    scene = changed(with_steps(HELD, 700), output={"series_every": 1, "checkpoint_every": 40})
+@pytest.mark.parametrize("motion", [{}, {"self_propulsion": 0.5, "reversal_rate": 1.0}], ids=["still", "turning round"])
+def test_stopped_killed_and_resumed(tmp_path, motion):
+    """The springs hold the images and points that they began with, and go on to the same bits, also across renumbered rows."""
+    scene = changed(with_steps(HELD, 700), output={"series_every": 1, "checkpoint_every": 40}, motion=motion)
     write_springs(tmp_path / "whole", SPRINGS, scene)
     whole = finish(tmp_path / "whole")
     folder = tmp_path / "parts"

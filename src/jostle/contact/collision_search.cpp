@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jostle/contact/own_image.hpp"
 #include "jostle/contact/segment_separation.hpp"
 #include "jostle/math/vectorised.hpp"
 #include "jostle/parallel/parallel_for.hpp"
@@ -52,7 +53,7 @@ JOSTLE_VECTORISED void glance_at(std::size_t count, Batch& batch) {
     for (std::size_t k = 0; k < count; ++k) {
         const auto [ex, ey, ez] = segment_separation({x[k], y[k], z[k]}, {ux[k], uy[k], uz[k]}, batch.half_i[k],
                                                      {vx[k], vy[k], vz[k]}, batch.half_j[k]);
-        const float distance = std::sqrt(ex * ex + ey * ey + ez * ez) + 1e-20F;
+        const float distance = std::sqrt(ex * ex + ey * ey + ez * ez) + 1e-30F;
         const float nx = ex / distance, ny = ey / distance, nz = ez / distance;
         normal_x[k] = in_normal_units(nx);
         normal_y[k] = in_normal_units(ny);
@@ -167,7 +168,7 @@ void CollisionSearch::look_closely(const PairName& name, std::uint16_t in_block,
     double touching = most_touching(motion.touching, name);
     if (always || gap_after - touching < motion.margin) {
         const std::size_t known = found.contacts.size();
-        touching = append(name, before, nearest, distance, after, motion.touching, found.contacts);
+        touching = append(name, before, nearest, distance, after, motion, found.contacts);
         if (always || gap_after - touching < motion.margin) return;
         found.contacts.resize(known);
     }
@@ -181,14 +182,23 @@ void CollisionSearch::look_closely(const PairName& name, std::uint16_t in_block,
 
 /// Appends the contacts of a pair, with their room. Returns the gap at which the first of them touches.
 double CollisionSearch::append(const PairName& name, const PairGeometry& before, const NearestPoints& nearest,
-                               double distance, const PairGeometry& after, const Touching& touching,
+                               double distance, const PairGeometry& after, const RodMotion& motion,
                                Contacts& contacts) const {
     const std::size_t first = contacts.size();
+    const auto own_image =
+        name.i == name.j && !motion.forces_at_start ? contact_with_own_image(name, after) : std::nullopt;
+    if (own_image) {
+        contacts.push_back(*own_image, name.image, ContactFeature::nearest);
+        contacts.contact[first].gap = distance - before.radii;
+        const double gap = motion.touching.of(*own_image);
+        contacts.contact[first].room -= gap;
+        return gap;
+    }
     append_contacts(name, before, nearest, distance, reach_[name.i] + reach_[name.j], contacts);
     double largest = 0.0;
     for (std::size_t l = first; l < contacts.size(); ++l) {
         Contact& contact = contacts.contact[l];
-        const double gap = touching.of(contact);
+        const double gap = motion.touching.of(contact);
         contact.room = gap_of_contact(contact, contacts.feature[l], after) - gap;
         largest = std::max(largest, gap);
     }
@@ -232,7 +242,7 @@ std::vector<PairName> CollisionSearch::missed_pairs(const Rods& rods, const Box&
         const PairGeometry before = pair_geometry(rods, i, j, box.displacement(image), rods.centre, rods.axis);
         const NearestPoints nearest = nearest_points(before);
         Contacts points;
-        return gap < append(name, before, nearest, norm(nearest.separation), pair, motion.touching, points);
+        return gap < append(name, before, nearest, norm(nearest.separation), pair, motion, points);
     };
     // Whether a pair is near enough to be among the bystanders does not depend on the history of the list if neither
     // rod is pushed beyond the allowance; the others wait for the thorough search.
@@ -285,7 +295,7 @@ void CollisionSearch::add(std::span<const PairName> missed, const Rods& rods, co
         const PairGeometry before = pair_geometry(rods, i, j, displacement, rods.centre, rods.axis);
         const PairGeometry after = pair_geometry(rods, i, j, displacement, motion.centre, motion.axis);
         const NearestPoints nearest = nearest_points(before);
-        append(name, before, nearest, norm(nearest.separation), after, motion.touching, contacts);
+        append(name, before, nearest, norm(nearest.separation), after, motion, contacts);
         added_.push_back(name);
     }
     std::sort(added_.begin(), added_.end());

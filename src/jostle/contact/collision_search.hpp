@@ -27,6 +27,7 @@ struct RodMotion {
     double margin;  ///< pairs with a gap wider than touching by this are bystanders; at most 2 push_allowance
     double range;   ///< contacts with a smaller gap are always taken (0: those that overlap)
     Touching touching;
+    bool forces_at_start = false;  ///< forces follow from where rods are before the step: there they meet their images
 };
 
 /// How contact forces push a rod in a step: the displacement of its centre, and of its ends to both sides of that; and
@@ -100,7 +101,7 @@ private:
     void look_closely(const PairName& name, std::uint16_t in_block, const Rods& rods, const Box& box,
                       const RodMotion& motion, Found& found) const;
     double append(const PairName& name, const PairGeometry& before, const NearestPoints& nearest, double distance,
-                  const PairGeometry& after, const Touching& touching, Contacts& contacts) const;
+                  const PairGeometry& after, const RodMotion& motion, Contacts& contacts) const;
     void search_block(std::size_t block, const Rods& rods, const Box& box, const RodMotion& motion);
     static bool may_meet(const Bystander& bystander, const Push& i, const Push& j);
     bool is_contact(const PairName& name, const Contacts& contacts) const;

@@ -72,7 +72,9 @@ void append_contacts(const PairName& name, const PairGeometry& pair, const Neare
         contacts.push_back({name.i, name.j, normal, point.s_i, point.s_j, gap, gap}, name.image, point.feature);
     };
     const double squared_sine = squared_norm(cross(pair.axis_i, pair.axis_j));
-    if (pair.half_i == 0.0 || pair.half_j == 0.0 || squared_sine > largest_sine_with_ends * largest_sine_with_ends) {
+    const bool own_image = name.i == name.j;  // no contact point resists more than one: all open as the rod turns
+    if (own_image || pair.half_i == 0.0 || pair.half_j == 0.0 ||
+        squared_sine > largest_sine_with_ends * largest_sine_with_ends) {
         add(nearest);
         return;
     }

@@ -49,7 +49,7 @@ inline bool pair_overlaps(const PairGeometry& pair) {
 ///          o------------------o            sin(angle) < 0.3: ends within range are added
 ///     ============================ i       if both ends are as far away as the nearest points, to 5e-4 D,
 ///     =====================o======         they replace them (three contacts of two straight rods would
-///          o  nearest      o               make A singular)
+///          o  nearest      o               make A singular); of a rod and its image the nearest points alone
 ///
 /// `nearest`: of `pair`; `distance`: between those points.
 void append_contacts(const PairName& name, const PairGeometry& pair, const NearestPoints& nearest, double distance,

@@ -22,6 +22,13 @@ inline double wca_force(double distance, double diameter, double energy) {
     return 24.0 * energy / distance * sixth * (2.0 * sixth - 1.0);
 }
 
+/// Curvature d2U/dr2 where U = `height` >= 0 (energy), for `diameter` > 0 (length) and `energy` epsilon > 0: with x =
+/// (D/r)^6 = (1 + sqrt(U/epsilon))/2 it is 4 epsilon (156 x^2 - 42 x)/r^2.
+inline double wca_curvature(double height, double diameter, double energy) {
+    const double x = 0.5 * (1.0 + std::sqrt(height / energy));
+    return 4.0 * energy * x * (156.0 * x - 42.0) * std::cbrt(x) / (diameter * diameter);
+}
+
 /// One force a contact. A pair feels its potential once: at its nearest points, or, where the ends of the stretch along
 /// which it lies side by side stand for them, at these in equal parts.
 std::vector<double> wca_forces(const Contacts& contacts, const Rods& rods, double energy);

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
+#include <unordered_map>
 
 #include "jostle/io/byte_buffer.hpp"
 #include "jostle/io/checksum.hpp"
@@ -289,7 +290,8 @@ std::optional<Checkpoint> latest_checkpoint(const std::string& folder) {
     }
 }
 
-void require_same_springs(const Checkpoint& checkpoint, std::vector<Spring> springs, const std::string& path) {
+void require_same_springs(const Checkpoint& checkpoint, std::vector<Spring> springs, bool rods_turn_round,
+                          const std::string& path) {
     const auto refuse = [&](const std::string& problem) {
         throw refused_file(path, problem,
                            "Restore the file, give another folder with --out, or start again with --fresh");
@@ -297,9 +299,18 @@ void require_same_springs(const Checkpoint& checkpoint, std::vector<Spring> spri
     if (springs.size() != checkpoint.springs.size())
         refuse("holds " + std::to_string(springs.size()) + " springs, and the run began with " +
                std::to_string(checkpoint.springs.size()));
+    std::unordered_map<std::uint64_t, bool> turned;
+    // A rod that has turned round has taken all its points along.
+    const auto turn_as_now = [&](std::uint64_t rod, double& s, double now) {
+        if (!rods_turn_round || s == 0.0) return;
+        if (turned.try_emplace(rod, s == -now).first->second) s = -s;
+    };
     for (std::size_t l = 0; l < springs.size(); ++l) {
-        springs[l].image = checkpoint.springs[l].image;
-        if (!(springs[l] == checkpoint.springs[l]))
+        Spring& spring = springs[l];
+        spring.image = checkpoint.springs[l].image;
+        turn_as_now(spring.rod_1, spring.s_1, checkpoint.springs[l].s_1);
+        turn_as_now(spring.rod_2, spring.s_2, checkpoint.springs[l].s_2);
+        if (!(spring == checkpoint.springs[l]))
             refuse("spring " + std::to_string(l + 1) + " is not the one that the run began with");
     }
 }

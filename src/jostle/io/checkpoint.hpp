@@ -60,9 +60,10 @@ std::string impossible_content(const Checkpoint& checkpoint);
 /// and how to go on from it. Errors: InputError, DiskError.
 std::optional<Checkpoint> latest_checkpoint(const std::string& folder);
 
-/// Refuses a checkpoint of other springs than the file at `path` holds now: the scene only names it. Errors:
-/// InputError.
-void require_same_springs(const Checkpoint& checkpoint, std::vector<Spring> springs, const std::string& path);
+/// Refuses a checkpoint of other springs than the file at `path` holds now: the scene only names it. Where rods turn
+/// round, all points of a rod may be on its other side. Errors: InputError.
+void require_same_springs(const Checkpoint& checkpoint, std::vector<Spring> springs, bool rods_turn_round,
+                          const std::string& path);
 
 /// The first line in which two resolved scenes differ, in words; lines that only tell when to end do not count. Empty
 /// if there is none.

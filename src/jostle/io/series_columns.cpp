@@ -123,7 +123,7 @@ std::vector<double> series_row(const Simulation& simulation, const StepSums& sum
     for (const double sum : {sums.contacts, sums.active_contacts, sums.iterations}) row.push_back(sum / sums.steps);
     row.push_back(sums.residual);
     row.push_back(sums.max_overlap);
-    if (!simulation.settings().springs.empty()) {
+    if (!simulation.springs().empty()) {
         row.push_back(pressure_springs(stress));
         row.insert(row.end(), stress.springs.m.begin(), stress.springs.m.end());
     }

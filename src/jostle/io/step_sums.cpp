@@ -113,7 +113,7 @@ Checkpoint checkpoint_of(const Simulation& simulation, const StepSums& sums, std
     checkpoint.time = simulation.clock().time;
     checkpoint.box = simulation.box();
     checkpoint.rods = simulation.rods();
-    checkpoint.springs = simulation.settings().springs;
+    checkpoint.springs.assign(simulation.springs().begin(), simulation.springs().end());
     checkpoint.last_forces = simulation.last_forces();
     checkpoint.accumulators = sums.to_numbers();
     return checkpoint;

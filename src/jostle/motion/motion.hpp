@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "jostle/rods/rods.hpp"
 #include "jostle/rods/velocities.hpp"
@@ -22,8 +23,11 @@ public:
     /// Adds this motion's velocities to `known`, one row a rod.
     virtual void add_to(Velocities& known, const Rods& rods, const StepContext& context) const = 0;
 
-    /// Changes rods at the end of a step, where that moves no point of a body: turning a rod round.
-    virtual void between_steps(Rods& /*rods*/, const StepContext& /*context*/) const {}
+    /// Rows of the rods that exchange head and tail once the step has been made, n -> -n: the same bodies, and no point
+    /// of one moves.
+    virtual std::vector<std::uint32_t> turned_round(const Rods& /*rods*/, const StepContext& /*context*/) const {
+        return {};
+    }
 };
 
 }  // namespace jostle

@@ -31,14 +31,18 @@ void SelfPropulsion::add_to(Velocities& known, const Rods& rods, const StepConte
     });
 }
 
-void SelfPropulsion::between_steps(Rods& rods, const StepContext& context) const {
-    if (swimming_.reversal_rate == 0.0) return;
+std::vector<std::uint32_t> SelfPropulsion::turned_round(const Rods& rods, const StepContext& context) const {
+    if (swimming_.reversal_rate == 0.0) return {};
     // Of a Poisson process: an odd number of events in the step. Twice turned round is not turned.
     const double odd = -0.5 * std::expm1(-2.0 * swimming_.reversal_rate * context.time_step);
+    std::vector<char> turned(rods.size());
     parallel_for(rods.size(), [&](std::size_t i) {
-        if (uniform4({context.seed, context.step, Stream::reversal, rods.id[i]}, 0)[0] < odd)
-            rods.axis[i] = -rods.axis[i];
+        turned[i] = happens({context.seed, context.step, Stream::reversal, rods.id[i]}, odd) ? 1 : 0;
     });
+    std::vector<std::uint32_t> rows;
+    for (std::uint32_t row = 0; row < rods.size(); ++row)
+        if (turned[row] != 0) rows.push_back(row);
+    return rows;
 }
 
 std::vector<double> SelfPropulsion::speeds(const Rods& rods, std::uint64_t seed) const {

@@ -29,7 +29,7 @@ public:
     explicit SelfPropulsion(double speed) : SelfPropulsion(Swimming{.speed = speed}) {}
 
     void add_to(Velocities& known, const Rods& rods, const StepContext& context) const override;
-    void between_steps(Rods& rods, const StepContext& context) const override;
+    std::vector<std::uint32_t> turned_round(const Rods& rods, const StepContext& context) const override;
 
     /// The rods' own speeds (N), whatever they do now.
     std::vector<double> speeds(const Rods& rods, std::uint64_t seed) const;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "jostle/error/require_value.hpp"
+#include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
 
@@ -21,6 +23,16 @@ Velocities Springs::velocities(const Rods& rods, std::span<const SpringPull> pul
     Velocities own(rods.size());
     mobility_.apply(rods, spring_forces(springs_, pulls, rods), own);
     return own;
+}
+
+void Springs::turn_round(std::span<const std::uint64_t> ids) {
+    const std::unordered_set<std::uint64_t> turned(ids.begin(), ids.end());
+    if (turned.empty()) return;
+    parallel_for(springs_.size(), [&](std::size_t l) {
+        Spring& spring = springs_[l];
+        if (turned.contains(spring.rod_1)) spring.s_1 = -spring.s_1;
+        if (turned.contains(spring.rod_2)) spring.s_2 = -spring.s_2;
+    });
 }
 
 double spring_relaxation(std::span<const Spring> springs, const MobilityOfRod& mobility_of, double time_step) {

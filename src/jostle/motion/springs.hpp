@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "jostle/mobility/mobility.hpp"
@@ -18,6 +19,12 @@ public:
 
     /// Their pulls as the rods stand, one a spring. Throws InputError if a spring names a rod that is not there.
     std::vector<SpringPull> pulls(const Rods& rods) const { return spring_pulls(springs_, rods, box_); }
+
+    /// As they are now: rods that turned round have taken the springs' points along.
+    const std::vector<Spring>& springs() const { return springs_; }
+
+    /// Rods of these ids have exchanged head and tail: a point s along the old axis is at -s along the new one.
+    void turn_round(std::span<const std::uint64_t> ids);
 
     /// The part of U_known (N) that these pulls give.
     Velocities velocities(const Rods& rods, std::span<const SpringPull> pulls) const;

@@ -57,8 +57,8 @@ double time_step(const Scene& scene, const Mobility& mobility, const Rods& rods)
 
 namespace {
 
-void set_springs(const Scene& scene, const Rods& rods, const Mobility& mobility, std::vector<Spring> springs,
-                 SimulationSettings& settings) {
+void check_springs(const Scene& scene, const Rods& rods, const Mobility& mobility, std::span<const Spring> springs,
+                   double time_step) {
     if (springs.empty() && !scene.springs.file.empty())
         throw InputError({.key = "springs.file", .value = scene.springs.file, .problem = "the springs were not read"});
     std::unordered_map<std::uint64_t, std::size_t> rows;
@@ -68,8 +68,7 @@ void set_springs(const Scene& scene, const Rods& rods, const Mobility& mobility,
         const auto found = rows.find(id);
         return found == rows.end() ? RodMobility{} : mobility.of_rod(found->second);
     };
-    require_slow_springs(scene, springs, mobility_of, settings.time_step);
-    settings.springs = std::move(springs);
+    require_slow_springs(scene, springs, mobility_of, time_step);
 }
 
 /// Where noise moves even spheres less in a step than cells grow, contact forces hardly change from step to step, and
@@ -117,12 +116,12 @@ Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock, 
                              : scene.solver.step_rule == StepRule::bb2 ? BarzilaiBorwein::bb2
                                                                        : BarzilaiBorwein::alternating;
     if (scene.growth.rate > 0.0) settings.growth = scene.growth;
-    set_springs(scene, rods, *mobility, std::move(springs), settings);
+    check_springs(scene, rods, *mobility, springs, settings.time_step);
     std::vector<std::unique_ptr<Motion>> motions;
     if (settings.kT > 0.0) motions.push_back(std::make_unique<BrownianMotion>(settings.kT, *mobility));
     if (scene.motion.self_propulsion != 0.0) motions.push_back(std::make_unique<SelfPropulsion>(swimming_of(scene)));
     return Simulation(box, std::move(rods), clock, std::move(mobility), std::move(motions), settings,
-                      std::move(last_forces));
+                      std::move(springs), std::move(last_forces));
 }
 
 }  // namespace jostle

@@ -37,7 +37,7 @@ double mean_of(const std::vector<double>& values) {
 
 Simulation::Simulation(Box box, Rods rods, Clock clock, std::unique_ptr<Mobility> mobility,
                        std::vector<std::unique_ptr<Motion>> motions, const SimulationSettings& settings,
-                       std::vector<LastForce> last_forces)
+                       std::vector<Spring> springs, std::vector<LastForce> last_forces)
     : box_(box),
       rods_(std::move(rods)),
       clock_(clock),
@@ -49,7 +49,7 @@ Simulation::Simulation(Box box, Rods rods, Clock clock, std::unique_ptr<Mobility
         throw InputError({.key = "time.step",
                           .value = std::to_string(settings_.time_step),
                           .problem = "the time step must be positive"});
-    if (!settings_.springs.empty()) add_springs();
+    if (!springs.empty()) add_springs(std::move(springs));
     if (settings_.growth) {
         growth_.emplace(*settings_.growth, settings_.seed);
         if (rods_.cycle.empty()) growth_->found(rods_);
@@ -57,12 +57,12 @@ Simulation::Simulation(Box box, Rods rods, Clock clock, std::unique_ptr<Mobility
     take_over_rods();
 }
 
-void Simulation::add_springs() {
+void Simulation::add_springs(std::vector<Spring> springs) {
     if (settings_.growth)
         throw InputError({.key = "springs.file",
                           .problem = "springs hold rods that stay, and cells divide and die",
                           .suggestion = "Remove [springs] or [growth]"});
-    springs_.emplace(settings_.springs, box_, *mobility_);
+    springs_.emplace(std::move(springs), box_, *mobility_);
 }
 
 /// Makes everything that belongs to rows anew.
@@ -117,8 +117,8 @@ RodMotion Simulation::motion() const {
     const auto shift = [this](const Contact& contact) {
         return settings_.brownian_correction ? shift_of(contact) : 0.0;
     };
-    return {moved_.centre, moved_.axis, displacement_, push_allowance_,
-            travel_,       margin_,     range_,        {largest_shift_, shift}};
+    return {moved_.centre, moved_.axis, displacement_,           push_allowance_,           travel_,
+            margin_,       range_,      {largest_shift_, shift}, settings_.wca_energy > 0.0};
 }
 
 /// Every so many steps, a function of the state alone: a run that was stopped goes on with the same rows.

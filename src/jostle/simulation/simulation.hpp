@@ -39,20 +39,20 @@ struct SimulationSettings {
     bool look_again = false;          ///< no pair in contact may overlap for being turned far in one step
     bool stress_conventions = false;  ///< other conventions of the stress are measured, too
     bool collision_moments = false;   ///< the parts of the collision stress are kept, contact by contact
-    std::vector<Spring> springs;      ///< between rods that stay: nothing may grow
     std::optional<GrowthLaw> growth;
 };
 
 /// Rods in a box, and the step that moves them.
 ///
-/// State (rods, clock, last forces) is apart from settings and results: a simulation made from the state of another
-/// goes on bit for bit as that one would have, for any number of threads. Neighbour list and contacts are only a cache.
-/// Rows of the rods change now and then, to keep neighbours near each other in memory; ids stay.
+/// State (rods, clock, springs, last forces) is apart from settings and results: a simulation made from the state of
+/// another goes on bit for bit as that one would have, for any number of threads. Neighbour list and contacts are only
+/// a cache. Rows of the rods change now and then, to keep neighbours near each other in memory; ids stay.
 class Simulation {
 public:
+    /// `springs`: between rods that stay, so nothing may grow.
     Simulation(Box box, Rods rods, Clock clock, std::unique_ptr<Mobility> mobility,
                std::vector<std::unique_ptr<Motion>> motions, const SimulationSettings& settings,
-               std::vector<LastForce> last_forces = {});
+               std::vector<Spring> springs = {}, std::vector<LastForce> last_forces = {});
 
     /// Adds a motion, felt from the next step on, after those that are there.
     void add(std::unique_ptr<Motion> motion) { motions_.push_back(std::move(motion)); }
@@ -67,6 +67,10 @@ public:
     const Rods& rods() const { return rods_; }
     const Box& box() const { return box_; }
     const Clock& clock() const { return clock_; }
+    /// Between the rods, as they are now.
+    std::span<const Spring> springs() const {
+        return springs_ ? std::span<const Spring>(springs_->springs()) : std::span<const Spring>();
+    }
     /// Who was born and who died after the last step.
     std::span<const LineageEvent> lineage() const { return lineage_; }
     const Mobility& mobility() const { return *mobility_; }
@@ -83,7 +87,7 @@ public:
     const std::vector<std::uint64_t>& contact_ids() const { return ids_before_.empty() ? rods_.id : ids_before_; }
 
 private:
-    void add_springs();
+    void add_springs(std::vector<Spring> springs);
     void renumber();
     void lengthen();
     void find_known_velocity();
@@ -94,6 +98,7 @@ private:
     void measure_stress(StepReport& report);
     void measure_spring_stress(StepReport& report);
     void advance();
+    void turn_round(std::span<const std::uint32_t> rows);
     void divide();
 
     void keep_forces();

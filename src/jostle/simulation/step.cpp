@@ -191,7 +191,9 @@ void Simulation::extend_gap_velocities(std::vector<double>& b) const {
     parallel_for(b.size() - known, [&](std::size_t k) {
         const std::size_t l = known + k;
         const Contact& contact = contacts_.contact[l];
-        if (settings_.brownian_correction || contacts_.feature[l] == ContactFeature::pushed) {
+        // Points found after a motion have their gap there.
+        const bool found_later = contacts_.feature[l] == ContactFeature::pushed || contact.i == contact.j;
+        if (settings_.brownian_correction || found_later) {
             b[l] = contact.room / dt;
             return;
         }
@@ -313,7 +315,7 @@ void Simulation::measure_spring_stress(StepReport& report) {
         centre[i] = rods_.centre[i] + half_step * pushed.linear[i];
         axis[i] = rotated(rods_.axis[i], half_step * pushed.angular[i]);
     });
-    report.spring_virial = sum_of_spring_stresses(settings_.springs, pulls_, rods_, centre, axis);
+    report.spring_virial = sum_of_spring_stresses(springs_->springs(), pulls_, rods_, centre, axis);
 }
 
 // Theory 2.4: q^{k+1} = q^k + dt (U_known + U_C), axes by the exponential map.
@@ -326,9 +328,20 @@ void Simulation::advance() {
     rods_.centre.swap(moved_.centre);
     rods_.axis.swap(moved_.axis);
     parallel_for(rods_.size(), [&](std::size_t i) { box_.wrap(rods_.centre[i], rods_.image[i]); });
-    for (const auto& cause : motions_) cause->between_steps(rods_, {settings_.seed, clock_.step, settings_.time_step});
+    for (const auto& cause : motions_)
+        turn_round(cause->turned_round(rods_, {settings_.seed, clock_.step, settings_.time_step}));
     ++clock_.step;
     clock_.time = static_cast<double>(clock_.step) * settings_.time_step;
+}
+
+// Theory 2.6: head and tail change names, and no point of a body moves, nor one that a spring holds.
+void Simulation::turn_round(std::span<const std::uint32_t> rows) {
+    std::vector<std::uint64_t> ids(rows.size());
+    parallel_for(rows.size(), [&](std::size_t k) {
+        rods_.axis[rows[k]] = -rods_.axis[rows[k]];
+        ids[k] = rods_.id[rows[k]];
+    });
+    if (springs_) springs_->turn_round(ids);
 }
 
 // Theory 5: between two steps cells may divide or die.

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -109,18 +110,13 @@ TEST_CASE("reversals: n becomes -n with the probability of an odd number of Pois
     const double rate = 0.7, dt = 0.5;
     const SelfPropulsion propulsion(Swimming{.speed = 1.0, .reversal_rate = rate});
     Rods rods = equal_rods(many);
-    propulsion.between_steps(rods, {seed, 4, dt});
-    double turned = 0.0;
-    for (const Vec3& axis : rods.axis) {
-        CHECK((axis == oblique || axis == -oblique));
-        turned += axis == -oblique ? 1.0 : 0.0;
-    }
+    const std::vector<std::uint32_t> turned = propulsion.turned_round(rods, {seed, 4, dt});
+    CHECK(std::is_sorted(turned.begin(), turned.end()));
+    CHECK(std::adjacent_find(turned.begin(), turned.end()) == turned.end());
     const double odd = 0.5 * (1.0 - std::exp(-2.0 * rate * dt));
-    CHECK(std::fabs(turned - odd * many) < 5.0 * std::sqrt(odd * (1.0 - odd) * many));
-    const std::vector<Vec3> once = rods.axis;
-    propulsion.between_steps(rods, {seed, 5, dt});
-    CHECK(rods.axis != once);
-    SelfPropulsion(Swimming{.speed = 1.0}).between_steps(rods, {seed, 6, dt});
+    CHECK(std::fabs(static_cast<double>(turned.size()) - odd * many) < 5.0 * std::sqrt(odd * (1.0 - odd) * many));
+    CHECK(propulsion.turned_round(rods, {seed, 5, dt}) != turned);
+    CHECK(SelfPropulsion(Swimming{.speed = 1.0}).turned_round(rods, {seed, 6, dt}).empty());
 }
 
 // 20000 rods; seven numbers, five standard errors: false-alarm rate 4e-6 per seed.
@@ -171,16 +167,16 @@ TEST_CASE("tumbles are a function of seed, id and step: no history, no rows, no 
     const StepContext context = {seed, 123456, 0.01};
     const int threads_before = parallel::thread_count();
     std::vector<Velocities> known(2, Velocities(rods.size()));
-    std::vector<Rods> after(2, rods);
+    std::vector<std::vector<std::uint32_t>> turned(2);
     for (const int k : {0, 1}) {
         parallel::set_thread_count(1 + 2 * k);
         propulsion.add_to(known[k], rods, context);
-        propulsion.between_steps(after[k], context);
+        turned[k] = propulsion.turned_round(rods, context);
     }
     parallel::set_thread_count(threads_before);
     CHECK(known[0].linear == known[1].linear);
     CHECK(known[0].angular == known[1].angular);
-    CHECK(after[0].axis == after[1].axis);
+    CHECK(turned[0] == turned[1]);
     Rods one;
     one.push_back(2718, {0, 0, 0}, oblique, 4.0, 1.0);
     Velocities alone(1);
