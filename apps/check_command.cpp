@@ -228,6 +228,8 @@ ExitCode check(const Scene& scene, const std::string& scene_path) {
     const double dt = time_step(scene, *mobility, population.rods);
     require_countable_steps(scene, dt);
     require_slow_swimmers(scene, population.rods, dt);
+    require_room_between_images(scene, box, *mobility, population.rods, dt);
+    require_soft_potential(scene, *mobility, population.rods, dt);
     const SpringsOfScene springs = springs_of(scene, scene_path, population, *mobility, dt);
     const auto field = make_field(scene, box);
 
@@ -245,6 +247,10 @@ ExitCode check(const Scene& scene, const std::string& scene_path) {
     print_motion(scene, *mobility, population.rods, dt);
     if (scene.motion.self_propulsion != 0.0) print_swimming(scene, *mobility, population.rods, dt);
     if (springs.count > 0) print_springs(springs);
+    if (scene.contact.model == ContactModel::wca)
+        print("potential relaxes per step",
+              fmt::format("{:.3g} of the overlap of rods that meet with 5 kT, at most; 2 is too much",
+                          potential_relaxation(scene, *mobility, population.rods, dt)));
     if (field) {
         const auto& [x, y, z] = field->cells();
         print("stress field", fmt::format("{} x {} x {} cells", x, y, z));

@@ -49,7 +49,9 @@ std::string advice(const StepReport& report, const Scene& scene, const Simulatio
             100.0 * filled);
     const std::string shorter = scene.time.rms_step ? "time.rms_step" : "time.step";
     if (scene.contact.model == ContactModel::wca)
-        return "  rods push through the potential: try a larger contact.energy, or a smaller " + shorter + "\n";
+        return "  try a smaller " + shorter +
+               ", by which rods that meet are thrown less far; if they still push through the potential, a larger "
+               "contact.energy, which takes a smaller step yet\n";
     switch (report.status) {
         case LcpStatus::iteration_limit:
             return "  try a smaller " + shorter + ", or a larger solver.max_iterations or tolerance\n";

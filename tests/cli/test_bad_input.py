@@ -67,6 +67,8 @@ GROWTH = [
     ({"division_deviation": 0.9}, "is outside the allowed range", "at most 0.5"),
     ({"division": "size"}, "is not one of the words", 'Did you mean "sizer"?'),
     ({"stall_force": 0.0}, "is zero", "greater than 0"),
+    ({"stall_force": 1.0, "stall_memory": 0.0}, "growth.stall_memory = 0.0: is zero", "greater than 0"),
+    ({"stall_memory": 1.0}, "is not used without growth.stall_force", "Set stall_force"),
     ({"death_rate": -1.0}, "is negative", "at least 0"),
     ({"division_every": 0}, "is outside the allowed range", "at least 1"),
     ({"division_every": 400}, "lets cells grow by 0.8 between two looks", "they add 3", "at most 375"),

@@ -6,6 +6,7 @@
 
 #include "jostle/io/csv_rows.hpp"
 #include "jostle/io/durable_file.hpp"
+#include "jostle/simulation/scene_keys.hpp"
 
 namespace jostle {
 
@@ -26,6 +27,13 @@ Rods read_rods(const std::string& path, double default_length, double default_di
         if (length < 0.0) throw refused_file(path, fmt::format("length = {} is negative", length), "", line);
         if (!(diameter > 0.0))
             throw refused_file(path, fmt::format("diameter = {} is not positive", diameter), "", line);
+        if (length > Range::largest_length)
+            throw refused_file(path, fmt::format("length = {} is above {}", length, Range::largest_length), "", line);
+        if (!positive_length.contains(diameter))
+            throw refused_file(path,
+                               fmt::format("diameter = {} is outside of {} to {}", diameter, Range::smallest_length,
+                                           Range::largest_length),
+                               "", line);
         rods.push_back(rods.size(), centre, normalised(axis), length, diameter);
         if (values[8]) rods.speed.push_back(*values[8]);
     });

@@ -124,6 +124,8 @@ Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_pa
         const double step = time_step(scene, *mobility, beginning.rods);
         require_countable_steps(scene, step);
         require_slow_swimmers(scene, beginning.rods, step);
+        require_room_between_images(scene, box, *mobility, beginning.rods, step);
+        require_soft_potential(scene, *mobility, beginning.rods, step);
         make_field(scene, box);  // for what it refuses
         beginning.springs = springs_from_file(scene, scene_path, beginning.rods);
         hold_nearest_images(beginning.springs, beginning.rods, box);

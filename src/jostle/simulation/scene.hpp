@@ -104,7 +104,7 @@ struct Scene {
 
     struct Time {
         std::optional<double> step;           // either this ...
-        std::optional<double> rms_step;       // ... or this: sqrt(2 D_t step)/D of the fastest rod; if neither, 0.03
+        std::optional<double> rms_step;       // ... or sqrt(2 D_t step), fastest rod, over D, thinnest; neither: 0.03
         std::optional<double> equilibration;  // "auto" (empty) or a time
         double production = 0.0;              // time averaged over
         bool operator==(const Time&) const = default;

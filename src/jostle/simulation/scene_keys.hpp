@@ -35,6 +35,8 @@ struct Range {
 
     static constexpr double smallest = 1e-30;
     static constexpr double largest = 1e30;
+    static constexpr double smallest_length = 1e-15;  ///< of rods: squares of their lengths do not overflow in float
+    static constexpr double largest_length = 1e15;
 
     bool contains(double value) const {  // false for nan
         if (value != 0.0 && std::fabs(value) < smallest) return false;
@@ -59,6 +61,8 @@ struct Plain {};
 
 inline constexpr Range positive{Range::smallest, Range::largest};
 inline constexpr Range zero_or_positive{0.0, Range::largest};
+inline constexpr Range positive_length{Range::smallest_length, Range::largest_length};
+inline constexpr Range zero_or_positive_length{0.0, Range::largest_length};
 
 /// The keys of a scene, one line a key: calls `visit(table, name, member, Quantity or Count or Plain)` for each of
 /// them.
@@ -75,10 +79,10 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("box", "edges", scene.box.edges, Quantity{dim::length, positive});
     visit("box", "periodic", scene.box.periodic, Plain{});
     visit("rods", "count", scene.rods.count, Count{1, (std::uint64_t{1} << 31) - 1});
-    visit("rods", "length", scene.rods.length, Quantity{dim::length, zero_or_positive});
-    visit("rods", "diameter", scene.rods.diameter, Quantity{dim::length, positive});
-    visit("rods", "length_deviation", scene.rods.length_deviation, Quantity{dim::length, zero_or_positive});
-    visit("rods", "diameter_deviation", scene.rods.diameter_deviation, Quantity{dim::length, zero_or_positive});
+    visit("rods", "length", scene.rods.length, Quantity{dim::length, zero_or_positive_length});
+    visit("rods", "diameter", scene.rods.diameter, Quantity{dim::length, positive_length});
+    visit("rods", "length_deviation", scene.rods.length_deviation, Quantity{dim::length, zero_or_positive_length});
+    visit("rods", "diameter_deviation", scene.rods.diameter_deviation, Quantity{dim::length, zero_or_positive_length});
     visit("rods", "start", scene.rods.start, Plain{});
     visit("rods", "axis", scene.rods.axis, Quantity{dim::none, {-Range::largest, Range::largest}});
     visit("rods", "file", scene.rods.file, Plain{});
@@ -95,7 +99,7 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("growth", "rate", scene.growth.rate, Quantity{dim::speed, zero_or_positive});
     visit("growth", "rate_deviation", scene.growth.rate_deviation, Quantity{dim::none, {0.0, 0.5}});
     visit("growth", "division", scene.growth.division, Plain{});
-    visit("growth", "division_length", scene.growth.division_length, Quantity{dim::length, positive});
+    visit("growth", "division_length", scene.growth.division_length, Quantity{dim::length, positive_length});
     visit("growth", "division_deviation", scene.growth.division_deviation, Quantity{dim::none, {0.0, 0.5}});
     visit("growth", "daughters", scene.growth.daughters, Plain{});
     visit("growth", "stall_force", scene.growth.stall_force, Quantity{dim::force, positive});
@@ -106,7 +110,7 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("contact", "model", scene.contact.model, Plain{});
     visit("contact", "energy", scene.contact.energy, Quantity{dim::energy, positive, true});
     visit("contact", "brownian_correction", scene.contact.brownian_correction, Plain{});
-    visit("contact", "range", scene.contact.range, Quantity{dim::length, positive, true});
+    visit("contact", "range", scene.contact.range, Quantity{dim::length, positive_length, true});
     visit("contact", "overlap_limit", scene.contact.overlap_limit, Quantity{dim::none, {0.0, 1.0, false, false}});
     visit("solver", "method", scene.solver.method, Plain{});
     visit("solver", "warm_start", scene.solver.warm_start, Plain{});

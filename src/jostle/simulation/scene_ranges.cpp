@@ -17,11 +17,13 @@ namespace {
 std::string describe(const Range& range, double value) {
     const bool finite = std::isfinite(value);
     std::string words;
-    if (range.lower == Range::smallest && !(value > 0.0 && value < range.lower))
+    const bool technical = range.lower == Range::smallest || range.lower == Range::smallest_length;
+    if (technical && !(value > 0.0 && value < range.lower))
         words = "greater than 0";
     else if (range.lower > -Range::largest || (finite && value < range.lower))
         words = fmt::format("{} {}", range.lower_included ? "at least" : "greater than", range.lower);
-    if (range.upper < Range::largest || (finite && value > range.upper))
+    const bool limited = range.upper < Range::largest && range.upper != Range::largest_length;
+    if (limited || (finite && value > range.upper))
         words += fmt::format("{}{} {}", words.empty() ? "" : " and ", range.upper_included ? "at most" : "less than",
                              range.upper);
     return words.empty() ? "a finite number" : words;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "jostle/contact/own_image.hpp"
+#include "jostle/contact/wca_forces.hpp"
 #include "jostle/motion/self_propulsion.hpp"
 #include "jostle/simulation/refusal.hpp"
 #include "jostle/simulation/rod_size.hpp"
@@ -28,6 +30,9 @@ constexpr double latest_division = 0.25;
 constexpr auto largest_step_number = static_cast<double>(most_steps);
 
 constexpr const char* slower_tumbles = "Use a shorter time.step or slower tumbles";
+
+/// In kT: the energy with which one pair in 150 meets.
+constexpr double high_energy = 5.0;
 
 }  // namespace
 
@@ -107,6 +112,52 @@ double require_slow_springs(const Scene& scene, std::span<const Spring> springs,
                     rounded(time_step), rounded(relaxation)),
         fmt::format("at most 1, with a step of at most {}", rounded(time_step / relaxation)),
         "Use a shorter time.step or softer springs");
+}
+
+void require_room_between_images(const Scene& scene, const Box& box, const Mobility& mobility, const Rods& rods,
+                                 double time_step) {
+    if (scene.contact.model != ContactModel::hard) return;
+    for (std::size_t i = 0; i < rods.size(); ++i) {
+        const double turn = std::sqrt(2.0 * thermal_energy(scene) * mobility.of_rod(i).rotational * time_step);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double edge = box.edges[static_cast<int>(k)];
+            if (rods.length[i] == 0.0 || !box.periodic[k] || edge >= rods.length[i] + rods.diameter[i]) continue;
+            const double room = inclination_between_images(edge, rods.length[i], rods.diameter[i]);
+            if (room >= turn) continue;
+            refuse("box.edges", text(box.edges),
+                   fmt::format("leave a rod room to turn by {} rad between its own images along {}, and a step of {} "
+                               "turns it by {}",
+                               rounded(room), "xyz"[k], rounded(time_step), rounded(turn)),
+                   fmt::format("a step of at most {}", rounded(time_step * room * room / (turn * turn))),
+                   "Enlarge that edge, or use a shorter step");
+        }
+    }
+}
+
+double potential_relaxation(const Scene& scene, const Mobility& mobility, const Rods& rods, double time_step) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < rods.size(); ++i) {
+        const RodMobility rod = mobility.of_rod(i);
+        const double half = 0.5 * rods.length[i];
+        largest = std::max(largest, std::max(rod.parallel, rod.perpendicular + half * half * rod.rotational));
+    }
+    const double energy = scene.contact.energy.value_or(scene.fluid.kT);
+    const double curvature = wca_curvature(high_energy * thermal_energy(scene), smallest_diameter(scene, rods), energy);
+    return time_step * curvature * 2.0 * largest;
+}
+
+void require_soft_potential(const Scene& scene, const Mobility& mobility, const Rods& rods, double time_step) {
+    if (scene.contact.model != ContactModel::wca) return;
+    const double relaxation = potential_relaxation(scene, mobility, rods, time_step);
+    if (relaxation <= 2.0) return;
+    const double energy = scene.contact.energy.value_or(scene.fluid.kT);
+    refuse(
+        "contact.energy", text(energy),
+        fmt::format("makes a potential too stiff for the time step: two rods that meet with 5 kT are thrown apart by "
+                    "{} times their overlap in one of {}",
+                    rounded(relaxation), rounded(time_step)),
+        fmt::format("at most 2 times: a step of at most {}", rounded(2.0 * time_step / relaxation)),
+        "Use a shorter step, a lower energy, or hard rods");
 }
 
 }  // namespace jostle

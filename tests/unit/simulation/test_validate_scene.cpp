@@ -127,6 +127,10 @@ TEST_CASE("ranges") {
     CHECK(refused_key([](Scene& s) { s.rods.count = 0; }) == "rods.count");
     CHECK(refused_key([](Scene& s) { s.rods.count = ~std::uint64_t{0}; }) == "rods.count");
     CHECK(refused_key([](Scene& s) { s.rods.diameter = 0.0; }) == "rods.diameter");
+    // Their squares would overflow in float, and contacts be missed.
+    CHECK(refused_key([](Scene& s) { s.rods.diameter = 1e19; }) == "rods.diameter");
+    CHECK(refused_key([](Scene& s) { s.rods.diameter = 1e-19; }) == "rods.diameter");
+    CHECK(refused_key([](Scene& s) { s.rods.length = 1e19; }) == "rods.length");
     CHECK(refused_key([](Scene& s) { s.fluid.viscosity = -1.0; }) == "fluid.viscosity");
     CHECK(refused_key([](Scene& s) { s.solver.tolerance = 0.1; }) == "solver.tolerance");
     CHECK(refused_key([](Scene& s) { s.solver.max_iterations = 0; }) == "solver.max_iterations");
