@@ -7,7 +7,8 @@ import h5py
 import numpy as np
 import pytest
 
-from jostle_command import DONE, RODS, STOPPED, changed, column, finish, mean, run, with_steps, write_scene
+from jostle_command import (DONE, RODS, STOPPED, changed, column, command, finish, mean, require_one_line, run, with_steps,
+                            write_scene)
 
 SOFT = {"contact": {"model": "wca", "energy": 1.0}, "time": {"step": 0.0005}, "output": {"series_every": 1}}
 
@@ -86,3 +87,28 @@ def test_speeds_of_a_file(tmp_path):
         moved = (rods["position/value"][-1] + 40.0 * rods["image/value"][-1])[order, 0] - 10.0
     assert time == pytest.approx(11.0)
     np.testing.assert_allclose(moved, np.array(speeds) * time, rtol=1e-5)
+
+
+def test_a_soft_potential_too_stiff_for_the_step_is_refused_before_the_run(tmp_path):
+    """Rods that meet with 5 kT must not be thrown farther apart than twice their overlap (theory, eq. 2.20)."""
+    write_scene(tmp_path, changed(RODS, **{**SOFT, "contact": {"model": "wca", "energy": 1e8}}))
+    for name in ("check", "run"):
+        require_one_line(command(tmp_path, name, "scene.toml"), "contact.energy = 1", "makes a potential too stiff for the time step",
+                         "a step of at most", "Use a shorter step, a lower energy, or hard rods")
+    assert not list(tmp_path.glob("*.run"))
+    write_scene(tmp_path, changed(RODS, **SOFT))
+    told = command(tmp_path, "check", "scene.toml").stdout
+    relaxation = float(re.search(r"potential relaxes per step\W+([\d.]+)", told)[1])
+    assert 0.01 < relaxation < 2
+
+
+def test_steps_too_long_between_the_images_of_a_rod_are_refused(tmp_path):
+    """At 1.001 D a rod may turn by 0.045 to either side, at 1.00001 D by 0.0045; the default step turns it by 0.012."""
+    scene = {"box": {"edges": [1.001, 12.0, 12.0]}, "rods": {"count": 1, "length": 5.0, "start": "aligned", "axis": [0, 0, 1]},
+             "time": {"production": 10.0}}
+    write_scene(tmp_path, scene)
+    assert command(tmp_path, "check", "scene.toml").returncode == DONE
+    write_scene(tmp_path, changed(scene, box={"edges": [1.00001, 12.0, 12.0]}))
+    for name in ("check", "run"):
+        require_one_line(command(tmp_path, name, "scene.toml"), "box.edges = ", "room to turn by 0.004472 rad between its own images along x",
+                         "a step of at most", "Enlarge that edge, or use a shorter step")

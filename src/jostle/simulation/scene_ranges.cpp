@@ -21,10 +21,10 @@ std::string describe(const Range& range, double value) {
     if (technical && !(value > 0.0 && value < range.lower))
         words = "greater than 0";
     else if (range.lower > -Range::largest || (finite && value < range.lower))
-        words = fmt::format("{} {}", range.lower_included ? "at least" : "greater than", range.lower);
+        words = fmt::format("{} {:.10g}", range.lower_included ? "at least" : "greater than", range.lower);
     const bool limited = range.upper < Range::largest && range.upper != Range::largest_length;
     if (limited || (finite && value > range.upper))
-        words += fmt::format("{}{} {}", words.empty() ? "" : " and ", range.upper_included ? "at most" : "less than",
+        words += fmt::format("{}{} {:.10g}", words.empty() ? "" : " and ", range.upper_included ? "at most" : "less than",
                              range.upper);
     return words.empty() ? "a finite number" : words;
 }
