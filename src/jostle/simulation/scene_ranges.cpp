@@ -24,8 +24,8 @@ std::string describe(const Range& range, double value) {
         words = fmt::format("{} {:.10g}", range.lower_included ? "at least" : "greater than", range.lower);
     const bool limited = range.upper < Range::largest && range.upper != Range::largest_length;
     if (limited || (finite && value > range.upper))
-        words += fmt::format("{}{} {:.10g}", words.empty() ? "" : " and ", range.upper_included ? "at most" : "less than",
-                             range.upper);
+        words += fmt::format("{}{} {:.10g}", words.empty() ? "" : " and ",
+                             range.upper_included ? "at most" : "less than", range.upper);
     return words.empty() ? "a finite number" : words;
 }
 
