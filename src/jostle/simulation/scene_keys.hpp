@@ -110,7 +110,7 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("contact", "model", scene.contact.model, Plain{});
     visit("contact", "energy", scene.contact.energy, Quantity{dim::energy, positive, true});
     visit("contact", "brownian_correction", scene.contact.brownian_correction, Plain{});
-    visit("contact", "range", scene.contact.range, Quantity{dim::length, positive_length, true});
+    visit("contact", "range", scene.contact.range, Quantity{dim::length, positive, true});
     visit("contact", "overlap_limit", scene.contact.overlap_limit, Quantity{dim::none, {0.0, 1.0, false, false}});
     visit("solver", "method", scene.solver.method, Plain{});
     visit("solver", "warm_start", scene.solver.warm_start, Plain{});
