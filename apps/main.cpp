@@ -6,6 +6,7 @@
 #include "exit_code.hpp"
 #include "frames_so_far.hpp"
 #include "jostle/error/input_error.hpp"
+#include "jostle/error/one_line.hpp"
 #include "presentation_command.hpp"
 #include "run_command.hpp"
 #include "standard_streams.hpp"
@@ -37,6 +38,8 @@ std::string joined(int count, char** words) {
     return line;
 }
 
+constexpr std::size_t longest_refusal = 500;  // bytes
+
 constexpr const char* footer =
     "Exit status: 0 done, 1 internal error, 2 bad input, 3 contacts not resolved or overlap above the limit,\n"
     "4 disk, 75 stopped early (run the same command again to go on).";
@@ -51,7 +54,6 @@ CLI::App* add_stress_command(CLI::App& app, StressOptions& options) {
         ->needs(box)
         ->capture_default_str();
     stress->add_option("--volume", options.volume, "volume to divide by; without it, stress times volume is given")
-        ->check(CLI::PositiveNumber)
         ->excludes(box);
     stress->add_option("--convention", options.convention, "rigid_body, centre_of_mass_virial or centre_line")
         ->capture_default_str();
@@ -88,11 +90,9 @@ ExitCode obey(int argc, char** argv) {
     CLI::App* run = app.add_subcommand("run", "Run a scene, or go on with a run of it that was stopped");
     run->add_option("scene", options.scene, "scene file (TOML)")->required();
     run->add_option("--out", options.folder, "folder for the results; default: SCENE's name with .run");
-    run->add_option(
-           "--threads", options.threads,
-           "number of threads, on which the result does not depend; default: one for every 2000 rods, at most one "
-           "a processor")
-        ->check(CLI::Range(1, 4096));
+    run->add_option("--threads", options.threads,
+                    "number of threads, on which the result does not depend; default: one for every 2000 rods, at most "
+                    "one a processor");
     run->add_option("--walltime", wall_time, "stop, ready to go on, before this time is over (H:MM or H:MM:SS)")
         ->check([](const std::string& text) {
             return seconds_of(text) ? std::string{} : "--walltime " + text + ": expected H:MM or H:MM:SS, as 23:50";
@@ -131,7 +131,15 @@ ExitCode obey(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? ExitCode::done : ExitCode::bad_input;
+        if (error.get_exit_code() == 0) {  // help or version
+            app.exit(error);
+            return ExitCode::done;
+        }
+        const auto parsed = app.get_subcommands();
+        std::fprintf(stderr, "jostle: %s. `jostle %s--help` tells what it takes\n",
+                     jostle::on_one_line(error.what(), longest_refusal).c_str(),
+                     parsed.empty() ? "" : (parsed[0]->get_name() + " ").c_str());
+        return ExitCode::bad_input;
     }
     options.wall_time = seconds_of(wall_time);
     if (run->parsed()) return run_command(options);

@@ -93,7 +93,8 @@ ExitCode resume_run(const RunOptions& options, const RunScene& scene, const RunD
 }  // namespace
 
 ExitCode run_command(const RunOptions& options) {
-    if (options.threads > 0) parallel::set_thread_count(options.threads);
+    if (options.threads) parallel::set_thread_count(*options.threads, "--threads");
+    parallel::thread_count();  // looks at OMP_NUM_THREADS before anything is written
     const RunScene scene = read_run_scene(options.scene);
     const std::string folder = folder_for(options);
     if (!options.fresh && is_run_directory(folder)) {

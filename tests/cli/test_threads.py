@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from jostle_command import (DONE, JOSTLE, STOPPED, changed, checkpoint_step, command, finish, kill, require_same_results, rows_of, run,
-                            start, wait_until, with_steps, write_scene)
+from jostle_command import (BAD_INPUT, DONE, JOSTLE, STOPPED, changed, checkpoint_step, command, finish, kill, require_one_line,
+                            require_same_results, rows_of, run, start, wait_until, with_steps, write_scene)
+from test_out_of_memory import at_most
 
 OUTPUT = {"series_every": 2, "trajectory_every": 3, "checkpoint_every": 4, "contacts": True}
 SCENES = {
@@ -68,3 +69,37 @@ def test_threads_are_started_where_they_are_worth_it(tmp_path, count, environmen
                      env={**environment_without("OMP_NUM_THREADS"), **environment})
     assert result.returncode == DONE, result.stderr
     assert threads_of(tmp_path / "run") == [expected]
+
+
+@pytest.mark.parametrize("count", ["0", "-1", "4097", "99999999999", "two", "2x", ""])
+def test_numbers_of_threads_that_are_none(tmp_path, count):
+    """On the command line and in the environment; OpenMP's library may have said a line of its own about the latter."""
+    write_scene(tmp_path, SCENES["spheres"])
+    option = command(tmp_path, "run", "scene.toml", "--out", "run", f"--threads={count}")
+    require_one_line(option, "--threads")
+    if count:
+        environment = command(tmp_path, "run", "scene.toml", "--out", "run", env={**os.environ, "OMP_NUM_THREADS": count})
+        assert environment.returncode == BAD_INPUT
+        expected = f"jostle: OMP_NUM_THREADS = {count}: is no number of threads (allowed: 1 to 4096)"
+        assert [line for line in environment.stderr.splitlines() if line and "libgomp" not in line] == [expected]
+    assert not (tmp_path / "run").exists()
+
+
+@pytest.mark.parametrize("by_option", [True, False])
+def test_more_threads_than_can_be_started(tmp_path, by_option):
+    """OpenMP's library would end the program."""
+    write_scene(tmp_path, SCENES["spheres"])
+    options = ("--threads", "4096") if by_option else ()
+    environment = os.environ if by_option else {**os.environ, "OMP_NUM_THREADS": "4096"}
+    result = command(tmp_path, "run", "scene.toml", "--out", "run", *options, env=environment, preexec_fn=at_most(1000))
+    name = "--threads" if by_option else "OMP_NUM_THREADS"
+    require_one_line(result, f"{name} = 4096: the system does not start so many threads (allowed: 1 to ")
+    assert not (tmp_path / "run").exists()
+
+
+@pytest.mark.parametrize("value", ["2", " 2 ", "2,1"])
+def test_numbers_of_threads_as_openmp_writes_them(tmp_path, value):
+    write_scene(tmp_path, with_steps(changed(SCENES["spheres"], rods={"count": 50}), 2))
+    result = command(tmp_path, "run", "scene.toml", "--out", "run", env={**os.environ, "OMP_NUM_THREADS": value})
+    assert result.returncode == DONE, result.stderr
+    assert threads_of(tmp_path / "run") == [2]

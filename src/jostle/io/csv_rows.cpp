@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "jostle/error/one_line.hpp"
 #include "jostle/io/csv_cells.hpp"
 #include "jostle/io/durable_file.hpp"
 #include "jostle/simulation/scene_keys.hpp"
@@ -24,7 +25,7 @@ Places places_of(const std::string& path, const CsvColumns& columns, std::string
     for (std::size_t cell = 0; cell < names.size(); ++cell) {
         const auto known = std::find(columns.names.begin(), columns.names.end(), names[cell]);
         if (known == columns.names.end())
-            throw refused_file(path, fmt::format("\"{}\" is no column of {}", names[cell], columns.file),
+            throw refused_file(path, fmt::format("\"{}\" is no column of {}", on_one_line(names[cell]), columns.file),
                                std::string(columns.header), 1);
         auto& place = places[static_cast<std::size_t>(known - columns.names.begin())];
         if (place) throw refused_file(path, fmt::format("the column \"{}\" stands twice", names[cell]), "", 1);
@@ -39,10 +40,12 @@ Places places_of(const std::string& path, const CsvColumns& columns, std::string
 
 double number(const std::string& path, int line, std::string_view name, std::string_view text) {
     const auto value = number_of_cell(text);
-    if (!value) throw refused_file(path, fmt::format("{} = \"{}\" is not a finite number", name, text), "", line);
+    if (!value)
+        throw refused_file(path, fmt::format("{} = \"{}\" is not a finite number", name, on_one_line(text)), "", line);
     const double magnitude = std::fabs(*value);
     if (magnitude != 0.0 && !(magnitude >= Range::smallest && magnitude <= Range::largest))
-        throw refused_file(path, fmt::format("{} = {} does not lie within 1e-30 and 1e30", name, text), "", line);
+        throw refused_file(path, fmt::format("{} = {} does not lie within 1e-30 and 1e30", name, on_one_line(text)), "",
+                           line);
     return *value;
 }
 

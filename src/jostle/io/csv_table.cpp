@@ -6,6 +6,7 @@
 #include <limits>
 #include <string_view>
 
+#include "jostle/error/one_line.hpp"
 #include "jostle/io/csv_cells.hpp"
 #include "jostle/io/durable_file.hpp"
 
@@ -37,7 +38,8 @@ std::vector<Target> read_header(Table& table, std::string_view line, int number,
     for (const std::string_view cell : cells) {
         Target target{std::string(cell)};
         if (std::find(table.names.begin(), table.names.end(), cell) != table.names.end())
-            throw refused_file(table.path, fmt::format("the column \"{}\" stands twice", cell), "", number);
+            throw refused_file(table.path, fmt::format("the column \"{}\" stands twice", on_one_line(cell)), "",
+                               number);
         table.names.push_back(target.name);
         if (std::find(known.numbers.begin(), known.numbers.end(), cell) != known.numbers.end())
             target.numbers = &table.numbers[target.name];
@@ -53,7 +55,7 @@ double number_in(std::string_view cell, const std::string& name, Table& table) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     if (cell.empty()) return none;
     if (const auto value = number_of_cell(cell)) return *value;
-    table.problems.add(table.rows, fmt::format("{} = \"{}\" is not a finite number", name, cell));
+    table.problems.add(table.rows, fmt::format("{} = \"{}\" is not a finite number", name, on_one_line(cell)));
     return none;
 }
 

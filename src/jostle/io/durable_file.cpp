@@ -10,6 +10,8 @@
 #include <system_error>
 #include <utility>
 
+#include "jostle/error/one_line.hpp"
+
 namespace jostle {
 namespace {
 
@@ -53,10 +55,11 @@ void wait_again(int descriptor, const std::string& path) {
 }  // namespace
 
 DiskError::DiskError(const std::string& path, const std::string& operation, int error_number)
-    : std::runtime_error(path + ": cannot " + operation + ": " + words(error_number)), error_number_(error_number) {}
+    : std::runtime_error(on_one_line(path, longest_file_name) + ": cannot " + operation + ": " + words(error_number)),
+      error_number_(error_number) {}
 
 DiskError::DiskError(const std::string& path, const std::string& operation, const std::string& reason)
-    : std::runtime_error(path + ": cannot " + operation + ": " + reason) {}
+    : std::runtime_error(on_one_line(path, longest_file_name) + ": cannot " + operation + ": " + on_one_line(reason)) {}
 
 InputError refused_file(const std::string& path, std::string problem, std::string suggestion, int line) {
     InputError::Parts parts;
@@ -119,6 +122,8 @@ void AppendFile::sync() {
 }
 
 ReadFile::ReadFile(std::string path) : path_(std::move(path)) {
+    if (path_.find('\0') != std::string::npos)
+        throw refused_file(path_, "the name holds a character 0", "Check the name");
     descriptor_ = uninterrupted([&] { return ::open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC); });
     if (descriptor_ < 0 && (errno == ENOENT || errno == ENOTDIR))
         throw refused_file(path_, "there is no such file", "Check the name");
@@ -159,8 +164,8 @@ std::string read_file(const std::string& path) {
 }
 
 void write_synced_file(const std::string& path, std::span<const std::string_view> pieces) {
+    remove_file_if_present(path);  // what a link of that name leads to is no file of the run
     AppendFile file(path);
-    file.truncate_to(0);
     for (const std::string_view piece : pieces) file.write_all(piece);
     file.sync();
 }

@@ -173,6 +173,7 @@ void write_h5md(const std::string& journal_path, const std::string& h5md_path, c
     const QuietHdf5 quiet;
     const JournalShape shape = shape_of(journal_path);
     const std::string temporary = h5md_path + ".tmp";
+    remove_file_if_present(temporary);  // what a link of that name leads to is no file of the run
     try {
         write_file(temporary, journal_path, shape, attributes, series);
         seal_h5md(temporary);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "jostle/error/one_line.hpp"
+
 namespace jostle {
 
 namespace {
@@ -55,8 +57,11 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
 }
 
 std::string quoted_list(const std::vector<std::string>& words) {
+    constexpr std::size_t most = 40;
     std::string list;
-    for (const std::string& word : words) list += (list.empty() ? "\"" : ", \"") + word + "\"";
+    for (std::size_t k = 0; k < std::min(words.size(), most); ++k)
+        list += (k == 0 ? "\"" : ", \"") + on_one_line(words[k]) + "\"";
+    if (words.size() > most) list += " and " + std::to_string(words.size() - most) + " more";
     return list;
 }
 

@@ -15,7 +15,7 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
 /// `Did you mean "X"?` with the nearest candidate, or "" if none is near.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
 
-/// The words in quotes, parted by commas.
+/// The words in quotes, parted by commas, each on_one_line; of more than forty, how many more there are.
 std::string quoted_list(const std::vector<std::string>& words);
 
 }  // namespace jostle

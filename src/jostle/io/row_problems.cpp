@@ -3,15 +3,19 @@
 #include <fmt/format.h>
 
 #include "jostle/error/input_error.hpp"
+#include "jostle/error/one_line.hpp"
 
 namespace jostle {
 
 namespace {
 constexpr std::size_t most_told = 20;
-}
+constexpr std::size_t longest_problem = 1000;  // bytes
+}  // namespace
 
-void RowProblems::add(std::size_t row, std::string problem) {
-    of_row_[row].push_back(std::move(problem));
+RowProblems::RowProblems(const std::string& path) : path_(on_one_line(path, longest_file_name)) {}
+
+void RowProblems::add(std::size_t row, std::string_view problem) {
+    of_row_[row].push_back(on_one_line(problem, longest_problem));
 }
 
 std::string RowProblems::name_of(std::size_t row) const {

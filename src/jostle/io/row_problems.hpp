@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace jostle {
@@ -10,10 +11,10 @@ namespace jostle {
 /// What is wrong with the rows of a table, told together: every row by file and line, up to a limit.
 class RowProblems {
 public:
-    explicit RowProblems(std::string path) : path_(std::move(path)) {}
+    explicit RowProblems(const std::string& path);
 
     /// Adds a problem, a clause without a full stop, of a row counted from 0.
-    void add(std::size_t row, std::string problem);
+    void add(std::size_t row, std::string_view problem);
 
     /// Whether a row has any.
     bool has(std::size_t row) const { return of_row_.contains(row); }

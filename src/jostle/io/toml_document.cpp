@@ -2,13 +2,14 @@
 
 #include <algorithm>
 
+#include "jostle/error/one_line.hpp"
+
 namespace jostle {
 
 namespace {
 
 constexpr std::size_t longest_line =
     4000;  // far beyond any scene; toml++ 3.3 overflows the stack on a key of 16,000 dots
-constexpr std::size_t longest_value = 60;
 
 bool is_continuation(char c) {
     return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
@@ -29,19 +30,14 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
 }
 
-/// White space runs and line ends become one space, control characters "?", and a long text is cut between two
-/// characters.
-std::string on_one_line(std::string_view text) {
+/// An entry, which may go over several lines: white space and line ends become one space.
+std::string entry_on_one_line(std::string_view text) {
     std::string line;
     for (const char c : trimmed(text)) {
         const bool space = c == ' ' || c == '\t' || c == '\n' || c == '\r';
-        const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-        if (!space || line.back() != ' ') line += space ? ' ' : (control ? '?' : c);
+        if (!space || line.back() != ' ') line += space ? ' ' : c;
     }
-    if (line.size() <= longest_value) return line;
-    std::size_t end = longest_value;
-    while (is_continuation(line[end])) --end;
-    return line.substr(0, end) + "...";
+    return on_one_line(line);
 }
 
 /// What toml++ says, and what we say instead.
@@ -122,11 +118,11 @@ void TomlDocument::refuse(const toml::parse_error& error) const {
     std::string key, value;
     const bool text = theirs.find("utf-8") == std::string_view::npos;  // else no message may repeat it
     if (text && (entry.starts_with('[') || equals == std::string_view::npos || equals == 0)) {
-        value = on_one_line(entry);
+        value = entry_on_one_line(entry);
     } else if (text) {
         const std::string table = table_above(at.line);
-        key = (table.empty() ? "" : table + ".") + on_one_line(entry.substr(0, equals));
-        value = on_one_line(entry.substr(equals + 1));
+        key = (table.empty() ? "" : table + ".") + entry_on_one_line(entry.substr(0, equals));
+        value = entry_on_one_line(entry.substr(equals + 1));
     }
     throw InputError({key, value, problem, "", suggestion, place(error.source())});
 }
@@ -159,7 +155,7 @@ std::string TomlDocument::written(const toml::source_region& region) const {
         text += whole.substr(begin, end - begin);
         text += ' ';
     }
-    return on_one_line(text);
+    return entry_on_one_line(text);
 }
 
 std::string_view TomlDocument::line(std::uint32_t number) const {
@@ -176,7 +172,7 @@ std::string TomlDocument::table_above(std::uint32_t line_number) const {
     for (std::uint32_t number = line_number - 1; number > 0; --number) {
         const std::string_view heading = trimmed(line(number));
         if (heading.starts_with('[') && !heading.starts_with("[["))
-            return on_one_line(heading.substr(1, heading.find(']') - 1));
+            return entry_on_one_line(heading.substr(1, heading.find(']') - 1));
     }
     return "";
 }

@@ -14,9 +14,15 @@ namespace jostle {
 
 namespace parallel {
 
-/// Number of threads used by all later loops, whichever thread calls them; at least 1.
-void set_thread_count(int count);
+/// Number of threads used by all later loops, whichever thread calls them: 1 to 4096, and no more than the system
+/// starts. Errors: InputError, with `asked_by` as its key. In a child of a fork, if threads had been started before, it
+/// stays 1.
+void set_thread_count(long long count, const char* asked_by = "set_thread_count");
+/// Errors: InputError if OMP_NUM_THREADS is outside the same range.
 int thread_count();
+
+/// Number of threads that the next loop begins with, the calling one among them.
+int team_size(bool on_one);
 
 /// Whether neither that nor OMP_NUM_THREADS has set it.
 bool thread_count_is_free();
@@ -41,7 +47,7 @@ inline constexpr std::size_t sum_block = 256;
 template <class Share>
 void for_shares(std::size_t count, bool on_one, Share&& share) {
     std::exception_ptr thrown;  // it may not leave the thread
-#pragma omp parallel if (!on_one) num_threads(thread_count())
+#pragma omp parallel num_threads(team_size(on_one))
     try {
         const auto [begin, end] = own_share(count);
         share(begin, end);

@@ -1,11 +1,17 @@
 #include "jostle/simulation/rod_size.hpp"
 
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/sysinfo.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <span>
 
+#include "jostle/error/input_error.hpp"
 #include "jostle/math/random.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
@@ -13,7 +19,33 @@ namespace jostle {
 
 namespace {
 
-constexpr std::size_t part = 256;  ///< rods whose numbers are drawn together
+constexpr std::size_t part = 256;        ///< rods whose numbers are drawn together
+constexpr double bytes_per_rod = 480.0;  ///< of a run where they are dilute, its least (docs/performance.md)
+
+/// Of the machine, or what this process is allowed of it.
+double bytes_of_memory() {
+    struct sysinfo machine {};
+    rlimit limit{};
+    double bytes = std::numeric_limits<double>::infinity();
+    if (sysinfo(&machine) == 0) bytes = static_cast<double>(machine.totalram) * machine.mem_unit;
+    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+        bytes = std::min(bytes, static_cast<double>(limit.rlim_cur));
+    return bytes;
+}
+
+/// Rods that are not alike are drawn one by one, in vain where no run could hold them.
+void require_room(std::uint64_t count) {
+    const double needed = bytes_per_rod * static_cast<double>(count), there = bytes_of_memory();
+    if (needed <= there) return;
+    throw InputError({.key = "rods.count",
+                      .value = fmt::format("{}", count),
+                      .problem = fmt::format("a run of so many rods needs {:.3g} GB of memory at least, "
+                                             "and this machine gives {:.3g} GB",
+                                             needed / 1e9, there / 1e9),
+                      .allowed = fmt::format("here at most {:.0f}", std::floor(there / bytes_per_rod)),
+                      .suggestion = {},
+                      .place = {}});
+}
 
 bool too_far(const Normals& normal) {
     return std::fabs(normal[0]) > farthest_deviation || std::fabs(normal[1]) > farthest_deviation;
@@ -31,6 +63,7 @@ double smallest_diameter(const Scene& scene, const Rods& rods) {
 }
 
 std::vector<RodSize> rod_sizes(const Scene& scene) {
+    require_room(scene.rods.count);
     const RodSize mean = {scene.rods.length, scene.rods.diameter};
     const RodSize deviation = {scene.rods.length_deviation, scene.rods.diameter_deviation};
     std::vector<RodSize> sizes(scene.rods.count, mean);

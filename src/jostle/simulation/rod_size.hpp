@@ -33,7 +33,7 @@ double smallest_diameter(const Scene& scene, const Rods& rods);
 
 /// Length and diameter that each rod starts with, by id (`rods.count`): normal numbers of mean `rods.length` and
 /// `rods.diameter` and standard deviations `rods.length_deviation` and `rods.diameter_deviation`, a function of (seed,
-/// id).
+/// id). Errors: InputError where no run of so many rods would fit in the memory of this machine.
 std::vector<RodSize> rod_sizes(const Scene& scene);
 
 }  // namespace jostle

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <filesystem>
 
 #include "full_disk.hpp"
 #include "jostle/error/input_error.hpp"
@@ -82,6 +83,16 @@ TEST_CASE("a file is replaced whole or not at all") {
     CHECK(code == 0);
     CHECK(read_file(path) == "new");
     CHECK_FALSE(file_exists(path + ".tmp"));
+}
+
+TEST_CASE("what a link in the place of the temporary file leads to is left alone") {
+    const TemporaryFolder folder;
+    put_content(folder.file("mine"), "keep");
+    std::filesystem::create_symlink(folder.file("mine"), folder.file("note.tmp"));
+    replace_file(folder.file("note"), "new");
+    CHECK(read_file(folder.file("mine")) == "keep");
+    CHECK(read_file(folder.file("note")) == "new");
+    CHECK_FALSE(std::filesystem::is_symlink(folder.file("note")));
 }
 
 TEST_CASE("a missing file is bad input, a folder that cannot be written to is the disk") {

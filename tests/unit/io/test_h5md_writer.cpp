@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <random>
 #include <set>
@@ -101,9 +102,13 @@ TEST_CASE("the journal's numbers stand in the file") {
     const TemporaryFolder folder;
     const std::string journal = folder.file("trajectory.journal"), path = folder.file("trajectory.h5");
     write_journal(journal, 3, 4);
+    put_content(folder.file("mine"), "keep");
+    std::filesystem::create_symlink(folder.file("mine"), path + ".tmp");
     write_h5md(journal, path, attributes);
     CHECK_NOTHROW(verify_h5md(path));
     CHECK_FALSE(file_exists(path + ".tmp"));
+    CHECK_FALSE(std::filesystem::is_symlink(path));
+    CHECK(read_file(folder.file("mine")) == "keep");
 
     const Opened file(path);
     CHECK(file.read<std::int64_t>("particles/rods/position/step", H5T_NATIVE_INT64, {3}) ==
