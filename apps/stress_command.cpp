@@ -2,14 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <new>
 #include <nlohmann/json.hpp>
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/io/contact_table.hpp"
-#include "jostle/io/durable_file.hpp"
 #include "jostle/io/nearest_word.hpp"
+#include "jostle/io/output_file.hpp"
+#include "jostle/simulation/scene_keys.hpp"
 #include "jostle/stress/contact_stress.hpp"
 #include "jostle/stress/stress.hpp"
 
@@ -26,7 +31,7 @@ struct Question {
     BodyTable bodies;
     ContactTable contacts;
     StressConvention convention;
-    double volume = 0.0;  ///< 0: unknown
+    std::optional<double> volume;
     TableUnits units;
 };
 
@@ -46,11 +51,11 @@ std::optional<Box> box_of(const StressOptions& options) {
     if (options.box.empty()) return std::nullopt;
     Box box{{options.box[0], options.box[1], options.box[2]}, {false, false, false}};
     for (const double edge : options.box)
-        if (!(std::isfinite(edge) && edge > 0.0))
+        if (!(edge >= Range::smallest && edge <= Range::largest))
             throw InputError({.key = "--box",
                               .value = fmt::format("{}", fmt::join(options.box, " ")),
-                              .problem = "has an edge that is not positive",
-                              .allowed = "three lengths, > 0"});
+                              .problem = "has an edge that is no such length",
+                              .allowed = "three lengths from 1e-30 to 1e30"});
     if (options.periodic == "none") return box;
     if (options.periodic.empty() || options.periodic.find_first_not_of("xyz") != std::string::npos)
         throw InputError({.key = "--periodic",
@@ -61,13 +66,14 @@ std::optional<Box> box_of(const StressOptions& options) {
     return box;
 }
 
-double volume_of(const StressOptions& options, const std::optional<Box>& box) {
+std::optional<double> volume_of(const StressOptions& options, const std::optional<Box>& box) {
     if (box) return box->volume();
-    if (!(std::isfinite(options.volume) && options.volume >= 0.0))
+    constexpr double smallest = 1e-90, largest = 1e90;  // those of boxes
+    if (options.volume && !(*options.volume >= smallest && *options.volume <= largest))
         throw InputError({.key = "--volume",
-                          .value = fmt::format("{}", options.volume),
-                          .problem = "is no volume",
-                          .allowed = "greater than 0"});
+                          .value = fmt::format("{}", *options.volume),
+                          .problem = "is no such volume",
+                          .allowed = "1e-90 to 1e90"});
     return options.volume;
 }
 
@@ -111,16 +117,24 @@ Question read_question(const StressOptions& options) {
 std::string stress_unit(const Question& question) {
     const auto& [length, force] = question.units;
     if (length.empty() || force.empty()) return "";
-    return force + " " + length + (question.volume > 0.0 ? "-2" : "");
+    return force + " " + length + (question.volume ? "-2" : "");
 }
 
-/// What divides a stress times volume.
-double divisor(const Question& question) {
-    return question.volume > 0.0 ? question.volume : 1.0;
-}
-
+/// By the volume, if it is known.
 Mat3 divided(const Mat3& stress, const Question& question) {
-    return (1.0 / divisor(question)) * stress;
+    return (1.0 / question.volume.value_or(1.0)) * stress;
+}
+
+/// Second moments near the ends of the range of doubles can take the stress beyond them.
+void require_finite(const ContactStress& stress, const Question& question) {
+    const auto is_finite = [&](const Mat3& of) {
+        const Mat3 a = divided(of, question);
+        return std::all_of(a.m.begin(), a.m.end(), [](double element) { return std::isfinite(element); });
+    };
+    if (!is_finite(stress.total()) || !std::all_of(stress.per_body.begin(), stress.per_body.end(), is_finite))
+        throw InputError({.key = "stress",
+                          .problem = "is beyond the numbers that a computer can hold",
+                          .suggestion = "Choose units in which second moments, lengths and forces are nearer to 1"});
 }
 
 Json rows_of(const Mat3& a) {
@@ -138,8 +152,8 @@ Json in_json(const Question& question, const ContactStress& stress, const std::s
     return {{"convention", convention},
             {"contacts", question.contacts.contacts.size()},
             {"bodies", question.bodies.bodies.size()},
-            {"volume", question.volume > 0.0 ? Json(question.volume) : Json(nullptr)},
-            {"divided_by_volume", question.volume > 0.0},
+            {"volume", question.volume ? Json(*question.volume) : Json(nullptr)},
+            {"divided_by_volume", question.volume.has_value()},
             {"units",
              {{"length", null_if_empty(question.units.length)},
               {"force", null_if_empty(question.units.force)},
@@ -162,15 +176,15 @@ void print_text(const Question& question, const ContactStress& stress, const std
     const std::string unit = stress_unit(question), in = unit.empty() ? "" : " in " + unit;
     std::printf("%zu contacts of %zu bodies, convention %s\n", question.contacts.contacts.size(),
                 question.bodies.bodies.size(), convention.c_str());
-    if (question.volume > 0.0)
-        std::printf("volume      %.9g%s\n", question.volume,
+    if (question.volume)
+        std::printf("volume      %.9g%s\n", *question.volume,
                     question.units.length.empty() ? "" : (" " + question.units.length + "3").c_str());
     std::printf("%s%s, row: position, column: force\n",
-                question.volume > 0.0 ? "stress" : "stress times volume (no --volume or --box)", in.c_str());
+                question.volume ? "stress" : "stress times volume (no --volume or --box)", in.c_str());
     for (int row = 0; row < 3; ++row) std::printf("%s\n", row_text(total, row).c_str());
     std::printf("of it the geometric part of the bodies\n");
     for (int row = 0; row < 3; ++row) std::printf("%s\n", row_text(geometric, row).c_str());
-    std::printf("pressure%s    %.9g\n", question.volume > 0.0 ? "" : " times volume", trace(total) / 3.0);
+    std::printf("pressure%s    %.9g\n", question.volume ? "" : " times volume", trace(total) / 3.0);
     std::printf("asymmetry   eps:stress = %.6g %.6g %.6g, relative %.3g\n", axial.x, axial.y, axial.z,
                 relative_asymmetry(total));
     for (const auto& [path, names] :
@@ -192,14 +206,13 @@ std::string per_body_csv(const Question& question, const ContactStress& stress) 
     return text;
 }
 
-}  // namespace
-
-ExitCode stress_command(const StressOptions& options) {
+ExitCode answer(const StressOptions& options) {
     const Question question = read_question(options);
     std::vector<Mat3> second_moments;
     for (const RigidBody& body : question.bodies.bodies) second_moments.push_back(body.second_moment);
     const ContactStress stress = contact_stress(second_moments, question.contacts.contacts, question.convention);
-    if (!options.per_body.empty()) replace_file(options.per_body, per_body_csv(question, stress));
+    require_finite(stress, question);
+    if (!options.per_body.empty()) write_output(options.per_body, per_body_csv(question, stress));
     if (options.json)
         std::printf(
             "%s\n",
@@ -207,4 +220,15 @@ ExitCode stress_command(const StressOptions& options) {
     else
         print_text(question, stress, options.convention);
     return ExitCode::done;
+}
+
+}  // namespace
+
+ExitCode stress_command(const StressOptions& options) {
+    std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is then an error of the write, like a full disk
+    try {
+        return answer(options);
+    } catch (const std::bad_alloc&) {
+        throw std::runtime_error("out of memory: the tables hold more than there is room for");
+    }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,7 @@
 /// What stands on the command line of `jostle stress`.
 struct StressOptions {
     std::string contacts, bodies;  ///< tables (src/jostle/io/contact_table.hpp, body_table.hpp)
-    double volume = 0.0;           ///< 0: not given
+    std::optional<double> volume;
     std::vector<double> box;       ///< edges along x, y, z; empty: not given
     std::string periodic = "xyz";  ///< directions along which the box is periodic; "none"
     std::string convention = "rigid_body";

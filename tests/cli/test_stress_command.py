@@ -1,4 +1,7 @@
-"""`jostle stress`: answers by hand and from an independent formula, CSV and HDF5, and every row that it refuses."""
+"""`jostle stress`: answers by hand and from an independent formula, CSV and HDF5, and every row that it refuses.
+
+What strange files and places do to it: test_strange_tables.py, test_per_body_file.py.
+"""
 
 import itertools
 import json
@@ -348,9 +351,12 @@ def test_options_that_are_refused(tmp_path):
     assert "needs a point on the centre line of each body" in refusal(tmp_path, "--convention", "centre_line")
     for periodic in ("xw", ""):
         assert "names no directions" in refusal(tmp_path, "--box", 3, 3, 3, "--periodic", periodic)
-    assert "an edge that is not positive" in refusal(tmp_path, "--box", 3, -3, 3)
+    for edge in (-3, 0, 1e-120, 1e200, "inf", "nan"):
+        assert "an edge that is no such length" in refusal(tmp_path, "--box", 3, edge, 3)
     assert "would overwrite a table" in refusal(tmp_path, "--per-body", "bodies.csv")
-    for options in (["--volume", 0], ["--volume", "nan"], ["--volume", 2, "--box", 1, 1, 1], ["--periodic", "x"]):
+    for volume in (0, -1, "nan", "inf", 1e-91):
+        assert "is no such volume (allowed: 1e-90 to 1e90)" in refusal(tmp_path, "--volume", volume)
+    for options in (["--volume", "abc"], ["--volume", 2, "--box", 1, 1, 1], ["--periodic", "x"]):
         assert refusal(tmp_path, *options)
     # half an edge: which image is meant cannot be told
     assert "is half a box edge" in refusal(tmp_path, "--box", 1, 1, 1)

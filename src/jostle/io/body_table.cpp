@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "jostle/error/input_error.hpp"
+#include "jostle/error/one_line.hpp"
 #include "jostle/io/durable_file.hpp"
 #include "jostle/io/nearest_word.hpp"
 #include "jostle/io/whole_number.hpp"
@@ -89,7 +90,7 @@ Mat3 of_shape(const Row& row) {
     if (shape == "box") return box_moments(row.vector("edge"), orientation_of(row)).second_moment;
     if (shape == "ellipsoid") return ellipsoid_moments(row.vector("semi_axis"), orientation_of(row)).second_moment;
     throw InputError({.key = "shape",
-                      .value = "\"" + shape + "\"",
+                      .value = "\"" + on_one_line(shape) + "\"",
                       .problem = "is no shape that is known",
                       .allowed = quoted_list(shapes),
                       .suggestion = did_you_mean(shape, shapes)});

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "jostle/error/one_line.hpp"
 #include "jostle/io/csv_table.hpp"
 #include "jostle/io/durable_file.hpp"
 #include "jostle/io/hdf5_table.hpp"
 #include "jostle/io/nearest_word.hpp"
+#include "jostle/simulation/scene_keys.hpp"
 
 namespace jostle {
 
@@ -31,6 +34,16 @@ bool is_hdf5(const std::string& path) {
                        fmt::format("the column{} {} {} missing", missing.size() > 1 ? "s" : "", quoted_list(missing),
                                    missing.size() > 1 ? "are" : "is"),
                        fmt::format("The file has {}{}", quoted_list(table.names), guess));
+}
+
+/// Larger numbers, multiplied, would leave the range of doubles; smaller ones only vanish beside others.
+void note_beyond_range(Table& table) {
+    for (const auto& [name, column] : table.numbers)
+        for (std::size_t row = 0; row < table.rows; ++row)
+            if (std::fabs(column[row]) > Range::largest)
+                table.problems.add(row, std::isinf(column[row])
+                                            ? fmt::format("{} is infinite", name)
+                                            : fmt::format("{} = {:g} is beyond 1e30 in size", name, column[row]));
 }
 
 std::vector<std::string> with_suffixes(const std::string& name, std::initializer_list<const char*> suffixes) {
@@ -67,12 +80,15 @@ std::vector<std::string> Table::passed_over(const KnownColumns& known) const {
     for (const std::string& name : names)
         if (std::find(known.numbers.begin(), known.numbers.end(), name) == known.numbers.end() &&
             std::find(known.words.begin(), known.words.end(), name) == known.words.end())
-            others.push_back(name);
+            others.push_back(on_one_line(name));
     return others;
 }
 
 Table read_table(const std::string& path, const KnownColumns& known) {
-    return is_hdf5(path) ? read_hdf5_table(path, known) : read_csv_table(path, known);
+    Table table = is_hdf5(path) ? read_hdf5_table(path, known) : read_csv_table(path, known);
+    table.units = {on_one_line(table.units.length), on_one_line(table.units.force)};
+    note_beyond_range(table);
+    return table;
 }
 
 std::vector<std::string> vector_columns(const std::string& name) {

@@ -31,7 +31,7 @@ struct Table {
     std::map<std::string, std::vector<double>> numbers;     ///< (rows) a known column; nan: an empty cell
     std::map<std::string, std::vector<std::string>> words;  ///< the same of words; "": an empty cell
     std::size_t rows = 0;
-    TableUnits units;
+    TableUnits units;      ///< on_one_line
     RowProblems problems;  ///< cells that could not be read, and what later looks at the rows find
 
     bool has(const std::string& name) const { return numbers.contains(name) || words.contains(name); }
@@ -41,7 +41,7 @@ struct Table {
     void require(const std::vector<std::string>& columns) const;
     /// Every empty cell of these columns becomes a problem of its row.
     void require_filled(const std::vector<std::string>& columns);
-    /// The columns of the file that `known` lacks.
+    /// The columns of the file that `known` lacks, each on_one_line.
     std::vector<std::string> passed_over(const KnownColumns& known) const;
 };
 
@@ -50,7 +50,8 @@ struct Table {
 /// CSV: lines that begin with # are passed over, but for "# length_unit: um" and "# force_unit: pN"; then a header line
 /// with the columns' names, then one row a line; cells are parted by commas, and may stand in quotes. HDF5: datasets of
 /// one dimension in the root group; the units are attributes of the root group. Cells that are no finite numbers and
-/// rows of another length than the header become `problems`. Errors: InputError for what is no such table; DiskError.
+/// numbers beyond 1e30 in size and rows of another length than the header become `problems`. HDF5 is read in a child
+/// process (bytes_from_child.hpp). Errors: InputError for what is no such table; DiskError.
 Table read_table(const std::string& path, const KnownColumns& known);
 
 /// NAME_x, NAME_y, NAME_z.

@@ -20,8 +20,8 @@ std::string words_of(const Vec3& a) {
 }
 
 void require_sizes(const char* key, const Vec3& sizes) {
-    if (!(is_finite(sizes) && sizes.x > 0.0 && sizes.y > 0.0 && sizes.z > 0.0))
-        refuse(key, words_of(sizes), "no body has such a size", "finite, > 0");
+    if (!(is_size(sizes.x) && is_size(sizes.y) && is_size(sizes.z)))
+        refuse(key, words_of(sizes), "no body has such a size", "1e-30 to 1e30");
 }
 
 /// R diag(d) R^T.
@@ -42,8 +42,8 @@ Vec3 squares(const Vec3& a) {
 }  // namespace
 
 BodyMoments sphere_moments(double diameter) {
-    if (!(std::isfinite(diameter) && diameter > 0.0))
-        refuse("diameter", fmt::format("{}", diameter), "no sphere has such a diameter", "finite, > 0");
+    if (!is_size(diameter))
+        refuse("diameter", fmt::format("{}", diameter), "no sphere has such a diameter", "1e-30 to 1e30");
     const double mass = pi / 6.0 * diameter * diameter * diameter;
     return {mass, {}, (mass * diameter * diameter / 20.0) * identity()};
 }

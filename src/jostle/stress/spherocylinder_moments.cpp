@@ -4,27 +4,15 @@
 
 #include <numbers>
 
-#include "jostle/error/input_error.hpp"
+#include "jostle/stress/refuse.hpp"
 
 namespace jostle {
 
 SpherocylinderMoments spherocylinder_moments(double length, double diameter) {
-    if (!std::isfinite(length) || length < 0.0) {
-        throw InputError({.key = "length",
-                          .value = fmt::format("{}", length),
-                          .problem = "a rod has no such length",
-                          .allowed = "finite, >= 0",
-                          .suggestion = "",
-                          .place = {}});
-    }
-    if (!std::isfinite(diameter) || diameter <= 0.0) {
-        throw InputError({.key = "diameter",
-                          .value = fmt::format("{}", diameter),
-                          .problem = "a rod has no such diameter",
-                          .allowed = "finite, > 0",
-                          .suggestion = "",
-                          .place = {}});
-    }
+    if (length != 0.0 && !is_size(length))
+        refuse("length", fmt::format("{}", length), "a rod has no such length", "0, or 1e-30 to 1e30");
+    if (!is_size(diameter))
+        refuse("diameter", fmt::format("{}", diameter), "a rod has no such diameter", "1e-30 to 1e30");
     const double b = length / diameter;
     const double radius = 0.5 * diameter;
     const double unit = std::numbers::pi * radius * radius * radius * radius * radius;
