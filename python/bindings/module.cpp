@@ -1,7 +1,6 @@
 #include <pybind11/pybind11.h>
 
 #include "bindings/bindings.hpp"
-#include "jostle/error/require_value.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
 // The extension module behind the package `jostle`: C++ functions on NumPy arrays, and nothing more. Names, defaults,
@@ -9,10 +8,7 @@
 PYBIND11_MODULE(_jostle, module) {
     using namespace jostle;
     module.attr("version") = JOSTLE_VERSION;
-    module.def("set_thread_count", [](int count) {
-        require_value(count >= 1, "set_thread_count", count, "is no number of threads", "at least 1");
-        parallel::set_thread_count(count);
-    });
+    module.def("set_thread_count", [](long long count) { parallel::set_thread_count(count); });
     module.def("thread_count", &parallel::thread_count);
     python::bind_errors(module);
     python::bind_segment_distance(module);

@@ -200,7 +200,7 @@ py::array SimulationInPython::series() const {
 }
 
 void SimulationInPython::save(const std::string& folder) const {
-    require_whole();
+    require_between_steps();  // within a motion cells have grown, and the clock has not moved
     write_checkpoint(folder, checkpoint_of(simulation(), sums_, to_toml(scene_.scene)));
 }
 

@@ -15,7 +15,7 @@ from whole numbers and float32; truth values, complex numbers, texts, NaN and in
 """
 
 from . import _waiting_threads  # before OpenMP is loaded
-from ._jostle import DiskError, InputError, set_thread_count, thread_count
+from ._jostle import DiskError, InputError
 from ._jostle import version as __version__
 from .bodies import Body, body_moments, combined
 from .contact import segment_distance
@@ -24,6 +24,7 @@ from .run import Run, load
 from .scene import Scene
 from .simulation import Simulation, StepFailure, StepReport
 from .stress import ContactStress, PairStress, collision_stress, contact_stress, orientation_stress, pair_stress
+from .threads import set_thread_count, thread_count
 
 __all__ = ["Body", "ContactStress", "DiskError", "InputError", "LcpResult", "PairStress", "Run", "Scene",
            "Simulation", "StepFailure", "StepReport", "body_moments", "collision_stress", "combined",

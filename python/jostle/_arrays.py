@@ -50,6 +50,13 @@ def number(name, value):
     return float(with_shape(name, value, ()))
 
 
+def whole_number(name, value, lowest):
+    """The value as an int that the extension takes."""
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)) or not lowest <= value < 2**63:
+        refuse(name, repr(value), "is no such number", f"a whole number of at least {lowest}, below 2**63")
+    return int(value)
+
+
 def rows(**values):
     """Broadcasts arrays with given last dimensions against each other: name = (value, last dimensions).
 

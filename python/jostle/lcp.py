@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _jostle
-from ._arrays import array, number, with_shape
+from ._arrays import array, number, whole_number, with_shape
 from ._jostle import refuse
 
 
@@ -102,14 +102,13 @@ def _question(constant, method, tolerance, max_iterations, residual, time_step, 
     for name, value in (("tolerance", tolerance), ("time_step", time_step)):
         if not number(name, value) > 0:
             refuse(name, str(value), "is not positive", "greater than 0")
-    if not isinstance(max_iterations, (int, np.integer)) or isinstance(max_iterations, bool) or max_iterations < 1:
-        refuse("max_iterations", str(max_iterations), "is no such number", "a whole number of at least 1")
+    max_iterations = whole_number("max_iterations", max_iterations, 1)
     if residual not in ("length", "paper"):
         refuse("residual", repr(residual), "is unknown", '"length", "paper"')
     first = np.zeros(0) if start is None else with_shape("start", start, constant.shape)
     if (first < 0).any():
         refuse("start", str(first.min()), "is negative", "at least 0")
-    return _jostle.LcpQuestion(str(method), constant, first, float(tolerance), int(max_iterations), residual,
+    return _jostle.LcpQuestion(str(method), constant, first, float(tolerance), max_iterations, residual,
                                float(time_step))
 
 
@@ -117,6 +116,7 @@ def _checked_rows(A, size):
     """Rows of a sparse matrix: begin, columns, elements, diagonal."""
     if A.shape != (size, size):
         refuse("A", f"a matrix of shape {A.shape}", "has the wrong shape", f"({size}, {size}), as b is long")
+    _require_sound_indices(A)
     matrix = A.tocsr(copy=True)
     matrix.sum_duplicates()
     elements = array("A", matrix.data)
@@ -126,6 +126,23 @@ def _checked_rows(A, size):
     difference = abs(matrix - matrix.T)
     _require_symmetric(difference.max() if difference.nnz else 0.0, abs(elements).max(initial=0.0))
     return matrix.indptr.astype(np.int64), matrix.indices.astype(np.int64), elements, matrix.diagonal()
+
+
+def _require_sound_indices(A):
+    """SciPy believes what stands in a matrix, and would read beyond its arrays."""
+    if hasattr(A, "row"):  # COO, which has no check of its own
+        sound = len(A.row) == len(A.col) == len(A.data) and all(
+            ((k >= 0) & (k < size)).all() for k, size in zip((A.row, A.col), A.shape))
+        problem = "an index is beyond the shape, or one is missing"
+    else:
+        sound, problem = True, ""
+    if hasattr(A, "check_format"):  # CSR, CSC, BSR
+        try:
+            A.copy().check_format(full_check=True)
+        except ValueError as error:
+            sound, problem = False, str(error)
+    if not sound:
+        refuse("A", "", f"is a damaged sparse matrix: {problem}")
 
 
 def _checked_function(A, size):

@@ -98,8 +98,12 @@ class Scene:
         jostle.InputError: <text>:6:1: rods.lenght = 5.0: is an unknown key (allowed: "count", "length", "diameter", "length_deviation", \
 "diameter_deviation", "start", "axis", "file"). Did you mean "length"?
         """
+        if not isinstance(source, (str, os.PathLike)):
+            refuse("source", repr(source), "is no scene", "the name of a file, or a text")
         if isinstance(source, str) and "\n" in source:
             return cls._of(_jostle.Scene.parse(source, "<text>"))
+        if "\0" in os.fspath(source):
+            refuse("source", repr(source), "holds a character 0", "the name of a file")
         return cls._of(_jostle.Scene.read(Path(source)))
 
     @classmethod

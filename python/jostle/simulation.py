@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 
 from . import _jostle
-from ._arrays import with_shape
-from ._jostle import refuse
+from ._arrays import whole_number, with_shape
+from ._jostle import DiskError, refuse
 from .scene import Scene
 from .stress import orientation_stress
 
@@ -23,8 +23,11 @@ class StepFailure(RuntimeError):
     """
 
     def __init__(self, message, report):
-        super().__init__(message)
+        super().__init__(message, report)  # both, or it could not be brought from one process to another
         self.report = report
+
+    def __str__(self):
+        return self.args[0]
 
 
 @dataclass(frozen=True)
@@ -165,8 +168,8 @@ class Simulation:
         >>> seen
         [3, 6]
         """
-        left = _whole_number("steps", steps, 0)
-        every = self.scene.output.series_every if every is None else _whole_number("every", every, 1)
+        left = whole_number("steps", steps, 0)
+        every = self.scene.output.series_every if every is None else whole_number("every", every, 1)
         before = len(self._core.series())
         while left > 0 and len(self) > 0:
             portion = left if callback is None else min(left, every - self.clock.step % every)
@@ -308,13 +311,17 @@ class Simulation:
     def save(self, folder):
         """Writes a checkpoint into a folder, for `resume`; the one before is kept as checkpoint.previous.
 
-        The folder is made if it is not there. That of a run of the command is refused. Raises DiskError.
+        The folder is made if it is not there. That of a run of the command is refused. Raises DiskError, and within a
+        motion RuntimeError: a step is then half done.
         """
         folder = Path(folder)
         if (folder / "run.json").exists():
             refuse("folder", str(folder), "holds a run of the command, whose checkpoint must fit its files",
                    suggestion="Give another folder")
-        folder.mkdir(parents=True, exist_ok=True)
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except (OSError, ValueError) as error:  # ValueError: the name holds a character 0
+            raise DiskError(f"{str(folder)!r}: cannot make the folder: {getattr(error, 'strerror', error)}") from None
         self._core.save(str(folder))
 
     def __repr__(self):
@@ -328,9 +335,3 @@ def _velocities(given, count):
     linear = with_shape("velocities of a motion", given[0] if both else given, (count, 3))
     angular = with_shape("angular velocities of a motion", given[1] if both else np.zeros((count, 3)), (count, 3))
     return np.hstack((linear, angular))
-
-
-def _whole_number(name, value, lowest):
-    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)) or value < lowest:
-        refuse(name, repr(value), "is no such number", f"a whole number of at least {lowest}")
-    return int(value)

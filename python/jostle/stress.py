@@ -173,7 +173,7 @@ def collision_stress(rods, contacts, volume, *, at="touching"):
         With axis (N, 3) of unit vectors, length and diameter (N) or one number; and id (N), if contacts name ids.
     contacts : structured array or dict, one entry a contact
         id_i, id_j (or i, j: rows of the rods); normal (C, 3), unit vector from i to j; arm_i, arm_j (C), length:
-        positions along the axes, from the centres; force (C), on j along the normal; and gap (C), length, if `at` is
+        positions along the axes, from the centres, within the rods; force (C), on j along the normal; and gap (C), length, if `at` is
         "start". `Simulation.contacts` is such an array.
     volume : float, length**3
     at : "touching" or "start"
@@ -210,7 +210,10 @@ def collision_stress(rods, contacts, volume, *, at="touching"):
     count = force.shape
     i, j = _partners(rods, contacts, count)
     columns = [with_shape("normal", _column(contacts, "normal"), count + (3,))]
-    columns += [with_shape(name, _column(contacts, name), count) for name in ("arm_i", "arm_j")]
+    _require_unit_vectors("normal", columns[0])
+    for name, partner in (("arm_i", i), ("arm_j", j)):
+        columns.append(with_shape(name, _column(contacts, name), count))
+        _require_within(name, columns[-1], partner, *shapes[1:])
     gap = with_shape("gap", _column(contacts, "gap"), count) if at == "start" else np.zeros(count)
     space = _positive("volume", volume)
     return _jostle.sum_over_contacts(*shapes, i, j, *columns, gap, force, at == "touching") / space
@@ -298,12 +301,27 @@ def _partners(rods, contacts, count):
 
 
 def _require_rods(axis, length, diameter):
-    size = np.linalg.norm(axis, axis=1)
-    if (abs(size - 1) > 1e-6).any():
-        k = int(np.argmax(abs(size - 1)))
-        refuse(f"axis (row {k})", str(axis[k]), "is no unit vector", "a vector of length 1")
+    _require_unit_vectors("axis", axis)
     for name, values, sound in (("length", length, length >= 0), ("diameter", diameter, diameter > 0)):
         if not sound.all():
             k = int(np.argmin(sound))
             refuse(f"{name} (row {k})", str(values[k]), "is outside the allowed range",
                    "at least 0" if name == "length" else "greater than 0")
+
+
+def _require_unit_vectors(name, vectors):
+    difference = abs(np.linalg.norm(vectors, axis=1) - 1)
+    if (difference > 1e-6).any():
+        k = int(np.argmax(difference))
+        refuse(f"{name} (row {k})", str(vectors[k]), "is no unit vector", "a vector of length 1")
+
+
+def _require_within(name, arm, rod, length, diameter):
+    """Rows out of range are for the extension to tell. Cells may have grown by a little since their rods were looked at."""
+    known = (rod >= 0) & (rod < len(length))
+    half = 0.5 * (length + diameter)[rod[known]]
+    beyond = abs(arm[known]) - half
+    if (beyond > 0).any():
+        k = int(np.argmax(beyond))
+        refuse(f"{name} (row {int(np.flatnonzero(known)[k])})", str(arm[known][k]), "is beyond the end of the rod",
+               f"at most {half[k]:g} in size")

@@ -2,14 +2,13 @@
 
 import doctest
 import importlib
-import inspect
 
 import numpy as np
 import pytest
 
 import jostle
 
-MODULES = ("bodies", "contact", "lcp", "run", "scene", "simulation", "stress")
+MODULES = ("bodies", "contact", "lcp", "run", "scene", "simulation", "stress", "threads")
 
 
 @pytest.mark.parametrize("name", MODULES)
@@ -25,4 +24,4 @@ def test_examples_of(name):
 def test_has_an_example(name):
     offered = getattr(jostle, name)
     assert offered.__doc__
-    assert ">>>" in offered.__doc__ or not inspect.isfunction(offered) and name.endswith("thread_count")
+    assert ">>>" in offered.__doc__

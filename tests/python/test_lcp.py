@@ -85,6 +85,7 @@ GOOD = np.array([[2.0, 1.0], [1.0, 2.0]])
     (GOOD, [1, 1], {"tolerance": 0}, "tolerance = 0: is not positive"),
     (GOOD, [1, 1], {"max_iterations": 0}, "max_iterations = 0: is no such number"),
     (GOOD, [1, 1], {"max_iterations": 1.5}, "max_iterations = 1.5: is no such number"),
+    (GOOD, [1, 1], {"max_iterations": 2**64}, "max_iterations = 18446744073709551616: is no such number"),
     (GOOD, [1, 1], {"residual": "square"}, "residual = 'square': is unknown"),
     (GOOD, [1, 1], {"start": [1, -1]}, "start = -1.0: is negative"),
     (GOOD, [1, 1], {"start": [1]}, "start = an array of shape"),
@@ -102,6 +103,20 @@ def test_bad_sparse_matrices():
             jostle.solve_lcp(scipy.sparse.csr_matrix(np.array(matrix, float)), [1.0, 1.0])
     with pytest.raises(jostle.InputError, match="has the wrong shape"):
         jostle.solve_lcp(scipy.sparse.identity(3), [1.0, 1.0])
+
+
+@pytest.mark.parametrize("kind", ["csr", "csc", "coo", "bsr"])
+def test_damaged_sparse_matrices(kind):
+    """SciPy itself would read, and write, beyond its arrays."""
+    for index in (10**6, -1):
+        matrix = scipy.sparse.identity(600, format=kind)
+        (matrix.row if kind == "coo" else matrix.indices)[3] = index
+        with pytest.raises(jostle.InputError, match="A: is a damaged sparse matrix"):
+            jostle.solve_lcp(matrix, np.ones(600))
+    if kind == "csr":
+        matrix.indptr[5] = 10**6
+        with pytest.raises(jostle.InputError, match="A: is a damaged sparse matrix"):
+            jostle.solve_lcp(matrix, np.ones(600))
 
 
 def test_bad_functions():

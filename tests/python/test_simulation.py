@@ -169,7 +169,8 @@ def test_a_callback_may_make_steps(rods):
     assert simulation.clock.step == 6
 
 
-@pytest.mark.parametrize("arguments", [{"steps": -1}, {"steps": 1.5}, {"steps": True}, {"steps": 1, "every": 0}])
+@pytest.mark.parametrize("arguments", [{"steps": -1}, {"steps": 1.5}, {"steps": True}, {"steps": 2**64}, {"steps": None},
+                                       {"steps": 1, "every": 0}])
 def test_bad_numbers_of_steps(rods, arguments):
     with pytest.raises(jostle.InputError, match="is no such number"):
         jostle.Simulation(rods).run(**arguments)
@@ -381,6 +382,9 @@ def test_motions_see_the_rods_before_the_step(cells):
     (lambda rods, clock: None, jostle.InputError, "velocities of a motion = an array of object"),
     (lambda rods, clock: (np.zeros((50, 3)), np.zeros(3)), jostle.InputError, "angular velocities of a motion"),
     (lambda rods, clock: np.full((50, 3), np.nan), jostle.InputError, "velocities of a motion = nan"),
+    (lambda rods, clock: np.full((50, 3), 1e300), jostle.InputError, "take a rod by more than ten times its length in a"),
+    (lambda rods, clock: np.full((50, 3), 1e6), jostle.InputError, "at most 1500\\). Use a smaller time.step"),
+    (lambda rods, clock: (np.zeros((50, 3)), np.full((50, 3), 1e6)), jostle.InputError, "by more than a whole turn in a"),
     (lambda rods, clock: os.kill(os.getpid(), signal.SIGINT) or time.sleep(1), KeyboardInterrupt, ""),
 ])
 def test_motions_that_fail_leave_the_simulation_whole(rods, motion, error, message):
@@ -452,6 +456,25 @@ def test_a_motion_cannot_make_steps(rods):
     grows.add_motion(lambda given, clock: grows.add_motion(lambda *_: 0) or 0 * given.centre)
     with pytest.raises(RuntimeError, match="in the middle of a step"):
         grows.run(2)
+
+
+def test_a_motion_cannot_save(cells, tmp_path):
+    """Within a step cells have grown and the clock has not moved: going on from there would be another run."""
+    simulation = jostle.Simulation(cells)
+    simulation.add_motion(lambda given, clock: simulation.save(tmp_path / "half") or 0 * given.centre)
+    with pytest.raises(RuntimeError, match="in the middle of a step"):
+        simulation.step()
+    assert not (tmp_path / "half/checkpoint").exists()
+    jostle.Simulation(cells).run(2, every=1, callback=lambda simulation: simulation.save(tmp_path / "whole"))
+    assert jostle.Simulation.resume(tmp_path / "whole").clock.step == 2
+
+
+def test_save_into_a_folder_that_cannot_be(rods, tmp_path):
+    (tmp_path / "file").write_text("")
+    simulation = jostle.Simulation(rods)
+    for folder in (tmp_path / "file/run", tmp_path / "file", "/proc/nowhere", "\0"):
+        with pytest.raises(jostle.DiskError, match="cannot make the folder"):
+            simulation.save(folder)
 
 
 def test_a_motion_that_holds_its_simulation_is_collected(rods):

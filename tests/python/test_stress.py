@@ -79,10 +79,12 @@ def test_bad_pairs_tell_their_row():
 
 
 def random_contacts(count, rods):
+    """Anywhere on rods of random length."""
     normal = RANDOM.normal(size=(count, 3))
-    return {"i": RANDOM.integers(0, rods, count), "j": RANDOM.integers(0, rods, count),
-            "normal": normal / np.linalg.norm(normal, axis=1, keepdims=True), "arm_i": RANDOM.normal(size=count),
-            "arm_j": RANDOM.normal(size=count), "force": RANDOM.random(count), "gap": 0.1 * RANDOM.random(count)}
+    i, j = RANDOM.integers(0, len(rods["length"]), (2, count))
+    arm_i, arm_j = RANDOM.uniform(-0.5, 0.5, (2, count)) * rods["length"][[i, j]]
+    return {"i": i, "j": j, "normal": normal / np.linalg.norm(normal, axis=1, keepdims=True), "arm_i": arm_i,
+            "arm_j": arm_j, "force": RANDOM.random(count), "gap": 0.1 * RANDOM.random(count)}
 
 
 def random_rods(count):
@@ -94,7 +96,8 @@ def random_rods(count):
 @pytest.mark.parametrize("at", ["touching", "start"])
 def test_rods_are_bodies(at):
     """The sum over contacts and rods is that of pair_stress over contacts, for rods of any sizes."""
-    rods, contacts = random_rods(30), random_contacts(200, 30)
+    rods = random_rods(30)
+    contacts = random_contacts(200, rods)
     volume = 7.0
     total = np.zeros((3, 3))
     bodies = [jostle.body_moments("spherocylinder", length=length, diameter=diameter, axis=axis) for length, diameter,
@@ -127,19 +130,22 @@ def test_rods_are_bodies(at):
     ({}, {"force": np.ones(199)}, 1, "wrong shape"),
     ({}, {"normal": np.ones((200, 2))}, 1, "normal = an array of shape"),
     ({}, {"normal": None}, 1, "normal: is missing"),
+    ({}, {"normal": np.tile([0, 0, 2.0], (200, 1))}, 1, r"normal \(row 0\) = .*is no unit vector"),
+    ({}, {"arm_j": np.full(200, 9.0)}, 1, r"arm_j \(row \d+\) = 9.0: is beyond the end of the rod"),
     ({}, {"force": np.full(200, np.inf)}, 1, "force = inf"),
     ({}, {"id_i": np.full(200, 10**6), "id_j": np.zeros(200, int)}, 1, "id_i = 1000000: is the id of no rod"),
 ])
 def test_bad_lists_of_contacts(change_rods, change_contacts, volume, message):
     def changed(table, change):
         return {name: value for name, value in {**table, **change}.items() if value is not None}
+    rods = random_rods(30)
     with pytest.raises(jostle.InputError, match=message):
-        jostle.collision_stress(changed(random_rods(30), change_rods), changed(random_contacts(200, 30), change_contacts),
-                                volume)
+        jostle.collision_stress(changed(rods, change_rods), changed(random_contacts(200, rods), change_contacts), volume)
 
 
 def test_no_contacts():
-    assert np.array_equal(jostle.collision_stress(random_rods(3), random_contacts(0, 3), 1.0), np.zeros((3, 3)))
+    rods = random_rods(3)
+    assert np.array_equal(jostle.collision_stress(rods, random_contacts(0, rods), 1.0), np.zeros((3, 3)))
 
 
 ROTATION = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
@@ -217,6 +223,10 @@ def test_bad_lists_of_bodies(change, message):
     ("sphere", {"diameter": 1, "length": 1}, 'length = 1: is no size of a "sphere"'),
     ("sphere", {"diameter": -1}, "diameter = -1"),
     ("sphere", {"diameter": np.nan}, "diameter = nan"),
+    ("sphere", {"diameter": 1e-320}, "diameter = .*no sphere has such a diameter .allowed: 1e-30 to 1e30"),
+    ("spherocylinder", {"length": 1e-31, "diameter": 1, "axis": [0, 0, 1]}, "length = 1e-31.*allowed: 0, or 1e-30 to 1e30"),
+    ("spherocylinder", {"length": 1, "diameter": 1e31, "axis": [0, 0, 1]}, "diameter = 1e.31"),
+    ("box", {"edges": [1, 1, 1e-200]}, "edges = 1 1 1e-200: no body has such a size"),
     ("spherocylinder", {"length": 1, "diameter": 1, "axis": [0, 0, 0]}, "axis = .*has no direction"),
     ("spherocylinder", {"length": 1, "diameter": 1, "axis": [0, 1]}, "axis = an array of shape"),
     ("box", {"edges": [1, 0, 1]}, "edge"),
