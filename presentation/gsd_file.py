@@ -4,6 +4,9 @@ A shape belongs to a type there, so rods of one length and diameter are a type. 
 lengths and diameters are drawn in classes of equal width; the exact ones stand in log/particles/length and particles/diameter.
 """
 
+import contextlib
+import os
+
 import gsd.fl
 import gsd.hoomd
 import numpy as np
@@ -17,16 +20,27 @@ MOST_DIAMETERS = 8  # where there are too many kinds of rods; leaves 8 classes o
 
 def is_ours(path):
     try:
-        with gsd.fl.open(name=str(path), mode="rb") as file:
+        with name_in_ascii(path, os.O_RDONLY) as name, gsd.fl.open(name=name, mode="rb") as file:
             return file.application == APPLICATION
     except (OSError, RuntimeError):
         return False
 
 
+@contextlib.contextmanager
+def name_in_ascii(path, how):
+    """Another name of a file, for gsd, which takes none that is not UTF-8."""
+    descriptor = os.open(path, how)
+    try:
+        yield f"/proc/self/fd/{descriptor}"
+    finally:
+        os.close(descriptor)
+
+
 def write(path, trajectory):
     """Writes every frame; float32, to look at and to analyse, never to go on from."""
     kinds = Kinds(trajectory)
-    with gsd.fl.open(name=str(path), mode="wb", application=APPLICATION, schema="hoomd", schema_version=[1, 4]) as file:
+    with (name_in_ascii(path, os.O_RDWR) as name,
+          gsd.fl.open(name=name, mode="wb", application=APPLICATION, schema="hoomd", schema_version=[1, 4]) as file):
         frames = gsd.hoomd.HOOMDTrajectory(file)
         for frame in trajectory:
             frames.append(snapshot(frame, kinds))

@@ -1,11 +1,20 @@
-"""Outputs appear whole or not at all, and replace nothing but what the same command made before."""
+"""Outputs appear whole or not at all, and replace nothing but what the same command made before.
+
+What is written lies beside the output until it is whole, under a name that nothing had; its maker holds a lock on it. So what
+a kill left there is known by its name and by its lock, which nobody holds, and the next command removes it.
+"""
 
 import contextlib
+import fcntl
 import os
+import re
 import shutil
+import tempfile
 from pathlib import Path
 
 from refusal import Refusal
+
+LEFT = re.compile(r"\.jostle-[a-z0-9_]{8}\.tmp")
 
 
 def place(out, default, name_in_folder=None):
@@ -23,14 +32,10 @@ def replaced_file(target, is_ours):
     """Gives a temporary name to write to; at the end it becomes the target. `is_ours(path)`: may be replaced."""
     if os.path.lexists(target) and not (target.is_file() and is_ours(target)):
         raise _taken(target)
-    temporary = _beside(target)
-    try:
-        temporary.touch()  # with the usual permissions; some writers would choose their own
+    with named(target), beside(target, _new_file) as temporary:
         yield temporary
         _sync(temporary)
         os.replace(temporary, target)
-    finally:
-        temporary.unlink(missing_ok=True)
 
 
 @contextlib.contextmanager
@@ -38,25 +43,96 @@ def replaced_folder(target, is_ours):
     """The same for a folder; an empty one is taken too."""
     if os.path.lexists(target) and not (target.is_dir() and (not any(target.iterdir()) or is_ours(target))):
         raise _taken(target)
-    temporary, old = _beside(target), _beside(target, "old")
-    try:
-        os.mkdir(temporary)
+    with named(target), beside(target) as temporary, beside(target) as aside:
         yield temporary
         for path in temporary.rglob("*"):
             _sync(path)
+        old = aside / "old"
         if target.exists():
             os.rename(target, old)
-        os.rename(temporary, target)
+        try:
+            os.rename(temporary, target)
+        except OSError:
+            if old.exists():
+                os.rename(old, target)
+            raise
+
+
+def _new_folder(**name):
+    return None, tempfile.mkdtemp(**name)
+
+
+def _new_file(**name):
+    return tempfile.mkstemp(**name)
+
+
+@contextlib.contextmanager
+def beside(target, make=_new_folder):
+    """A new folder, or file, beside the target; what is left of it at the end is removed."""
+    parent = target.absolute().parent
+    for path in parent.iterdir():
+        if LEFT.fullmatch(path.name):
+            _remove_if_left(path)
+    lock = None
+    while lock is None:
+        descriptor, name = make(prefix=".jostle-", suffix=".tmp", dir=parent)
+        temporary = Path(name)
+        if descriptor is not None:
+            os.close(descriptor)
+        lock = _lock(temporary)
+    try:
+        os.chmod(temporary, (0o777 if temporary.is_dir() else 0o666) & ~_umask())  # as other files are made
+        yield temporary
     finally:
-        if old.exists() and not target.exists():
-            os.rename(old, target)
-        for folder in (temporary, old):
-            shutil.rmtree(folder, ignore_errors=True)
+        _remove(temporary)
+        os.close(lock)
 
 
-def _beside(target, ending="tmp"):
-    target = target.absolute()
-    return target.with_name(f".{target.name}.{os.getpid()}.{ending}")
+def _lock(path):
+    """A descriptor that holds the lock; None where another process holds it, or has removed what is there."""
+    try:
+        descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW)
+    except OSError:
+        return None
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        if os.path.samestat(os.fstat(descriptor), os.lstat(path)):
+            return descriptor
+    except OSError:
+        pass
+    os.close(descriptor)
+    return None
+
+
+def _remove_if_left(path):
+    lock = _lock(path)
+    if lock is not None:
+        _remove(path)
+        os.close(lock)
+
+
+def _remove(path):
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path, ignore_errors=True)
+    else:
+        with contextlib.suppress(OSError):
+            path.unlink()
+
+
+def _umask():
+    mask = os.umask(0o077)
+    os.umask(mask)
+    return mask
+
+
+@contextlib.contextmanager
+def named(target):
+    """Errors of writing, some of which know no name, tell that of the output."""
+    try:
+        yield
+    except OSError as error:
+        error.filename, error.filename2 = str(target), None
+        raise
 
 
 def _sync(path):

@@ -1,10 +1,12 @@
 """What the programs of this folder cannot do, told as the command tells it: one line, and an exit status."""
 
+import errno
 import importlib
 import signal
 import sys
 
 DONE, BAD_INPUT, DISK, STOPPED = 0, 2, 4, 75
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 class Refusal(Exception):
@@ -28,6 +30,21 @@ def require_modules(packages):
                       "Run: apt-get install " + " ".join(package for _, package in missing))
 
 
+def on_one_line(text):
+    """What a terminal would obey, line ends, and bytes of names that are no UTF-8, as \\n or \\x1b."""
+    return "".join(letter if letter.isprintable() else _number(letter) for letter in text)
+
+
+def _number(letter):
+    if "\udc80" <= letter <= "\udcff":  # how Python keeps a byte that is no UTF-8
+        return f"\\x{ord(letter) - 0xdc00:02x}"
+    return letter.encode("unicode_escape").decode("ascii")
+
+
+def _tell(text):
+    print(f"jostle: {on_one_line(text)}", file=sys.stderr)
+
+
 def _stop(*_):
     raise KeyboardInterrupt
 
@@ -35,17 +52,18 @@ def _stop(*_):
 def exit_status(program):
     """Runs the program, and tells what went wrong on standard error in one line."""
     signal.signal(signal.SIGTERM, _stop)  # so that what was begun is removed
+    sys.stdout.reconfigure(errors="surrogateescape")  # names as they are
     try:
         program()
         return DONE
     except Refusal as refusal:
-        print(f"jostle: {refusal}", file=sys.stderr)
+        _tell(str(refusal))
         return BAD_INPUT
     except OSError as error:
-        reason = error.strerror or str(error)
-        print(f"jostle: {error.filename or 'output'}: cannot write: {reason}. Nothing was changed; make room, or give "
-              "another place with --out", file=sys.stderr)
+        room = "make room, or " if error.errno in FULL else ""
+        _tell(f"{error.filename or 'output'}: cannot write: {error.strerror or error}. Nothing was changed; {room}give another "
+              "place with --out")
         return DISK
     except KeyboardInterrupt:
-        print("jostle: stopped, nothing was changed; run the same command again", file=sys.stderr)
+        _tell("stopped, nothing was changed; run the same command again")
         return STOPPED

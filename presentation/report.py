@@ -8,7 +8,10 @@ Called by the command, which has read the command line.
 """
 
 import argparse
+import os
 import sys
+import tempfile
+from pathlib import Path
 
 import refusal
 from refusal import Refusal
@@ -97,29 +100,39 @@ def colony_of(run, rods):
     return made, colony.tiles(run, rods, made)
 
 
+def keep_temporary_files_in(folder):
+    """Matplotlib keeps its list of fonts in the user's own folder, or, without one, where all users do."""
+    tempfile.tempdir = str(folder)
+    if not os.access(Path.home(), os.W_OK):
+        os.environ.setdefault("MPLCONFIGDIR", str(folder))
+
+
 def report():
     options = arguments()
     width, megabytes = width_of(options.width), megabytes_of(options.megabytes)
-    refusal.require_modules(NEEDED)
-    import curves
-    import page
-    import plots
-    import viewer_parts
-    from output_place import place, replaced_folder
+    refusal.require_modules({"numpy": "python3-numpy"})
+    from output_place import beside, place, replaced_folder
     from run_folder import read_run
 
     run = read_run(options.folder)
     target = place(options.out, run.folder / "report")
-    with replaced_folder(target, is_ours) as folder:
+    with replaced_folder(target, is_ours) as folder, beside(target) as scratch:
+        keep_temporary_files_in(scratch)
+        refusal.require_modules(NEEDED)
+        import curves
+        import page
+        import plots
+        import viewer_parts
         rods, notes = rods_of(run, megabytes, options.frames)
         still, missing = still_of(run, rods, folder, width) if rods else (None, [])
         drawn, tiles = colony_of(run, rods) if run.is_colony else (curves.chosen(run), page.average_tiles(run))
         for curve in drawn:
             plots.draw(curve, run.in_unit("time")[1], folder)
         notes += missing + ([] if viewer_parts.plotting() else [viewer_parts.MISSING])
-        (folder / page.NAME).write_text(page.text(run, folder, drawn, still, rods, tiles, notes), encoding="utf-8")
+        (folder / page.NAME).write_text(page.text(run, folder, drawn, still, rods, tiles, notes), encoding="utf-8",
+                                        errors="replace")  # the name of a folder may be no UTF-8
     for note in notes:
-        print(f"jostle: {note}", file=sys.stderr)
+        print(f"jostle: {refusal.on_one_line(note)}", file=sys.stderr)
     print(target / page.NAME)
 
 

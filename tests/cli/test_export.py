@@ -15,7 +15,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 import trajectory_by_hand
-from jostle_command import (DISK, DONE, JOSTLE, RODS, changed, command, finish, flip_bit,
+from jostle_command import (BAD_INPUT, DISK, DONE, JOSTLE, RODS, changed, command, finish, flip_bit,
                             require_one_line, snapshot, write_scene)
 from test_full_disk import file_size_limit
 
@@ -286,8 +286,30 @@ def test_a_full_disk(finished_copy, form):
     before = snapshot(run)
     result = command(finished_copy, "export", "run", "--to", form, preexec_fn=file_size_limit(2000))
     assert result.returncode == DISK and result.stderr.count("\n") == 1, result.stderr
-    assert "File too large" in result.stderr
+    assert f"run/{OUTPUTS[form]}: cannot write: File too large. Nothing was changed; make room, or" in result.stderr
     assert snapshot(run) == before
+
+
+@pytest.mark.parametrize("form", OUTPUTS)
+def test_a_folder_whose_name_is_not_utf_8(finished_copy, form):
+    """Names of files are bytes."""
+    folder = finished_copy / os.fsdecode(b"caf\xe9\x1b[31m")
+    (finished_copy / "run").rename(folder)
+    for _ in range(2):  # the second takes the place of the first
+        result = subprocess.run([JOSTLE, "export", os.fsencode(folder), "--to", form], capture_output=True, timeout=60)
+        assert result.returncode == DONE, result.stderr
+        assert result.stdout.startswith(os.fsencode(folder / OUTPUTS[form])) and result.stderr == b""
+    assert (folder / OUTPUTS[form]).exists()
+    (folder / "trajectory.h5").unlink()
+    result = subprocess.run([JOSTLE, "export", os.fsencode(folder), "--to", form], capture_output=True, timeout=60)
+    assert result.returncode == BAD_INPUT and b"caf\\xe9\\x1b[31m/trajectory.h5: " in result.stderr
+
+
+def test_a_place_that_cannot_be_written(finished_copy):
+    """Advice to make room would be out of place."""
+    for out, reason in (("/proc/x.gsd", "No such file or directory"), ("/dev/full/x.gsd", "there is no such folder")):
+        result = command(finished_copy, "export", "run", "--to", "gsd", "--out", out)
+        assert result.returncode in (DISK, BAD_INPUT) and reason in result.stderr and "make room" not in result.stderr
 
 
 def test_an_installed_command_takes_what_is_installed_with_it(finished_copy):

@@ -184,6 +184,58 @@ def test_a_report_that_is_stopped(finished_copy):
     assert snapshot(finished_copy / "run") == before
 
 
+def test_what_a_kill_left_is_removed_by_the_next(finished_copy):
+    """But nothing that another command still works on, and nothing of the user's."""
+    programs = finished_copy / "programs"
+    programs.mkdir()
+    (programs / "povray").write_text(f"#!/bin/sh\necho $$ > {programs}/number\nexec /bin/sleep 600\n")
+    (programs / "povray").chmod(0o755)
+    run, number = finished_copy / "run", programs / "number"
+    (run / ".jostle-notes.tmp").write_text("mine")
+    before = snapshot(run)
+
+    def started():
+        number.unlink(missing_ok=True)
+        process = subprocess.Popen([shutil.which(JOSTLE), "report", "run"], cwd=finished_copy, stderr=subprocess.PIPE,
+                                   stdout=subprocess.PIPE, text=True, env={**os.environ, "PATH": f"{programs}:/bin"})
+        wait_until(lambda: number.exists() and number.read_text().endswith("\n"), process)
+        return process
+
+    def left():
+        return {path.name for path in run.glob(".jostle-????????.tmp")}
+
+    killed = started()
+    kill(killed, 9)
+    os.kill(int(number.read_text()), 9)
+    after_kill = left()
+    assert after_kill
+    working = started()
+    own = left()
+    assert own and not own & after_kill
+    export = command(finished_copy, "export", "run", "--to", "xyz")
+    assert export.returncode == DONE and left() == own
+    assert kill(working, 15)[0] == STOPPED
+    (run / "trajectory.xyz").unlink()
+    assert snapshot(run) == before
+
+
+@pytest.mark.parametrize("home", ["home", "nowhere"])
+def test_fonts_are_listed_in_no_shared_place(finished_copy, home):
+    """What TMPDIR holds while the view is drawn."""
+    for name in ("home", "tmp", "programs"):
+        (finished_copy / name).mkdir()
+    seen = finished_copy / "seen"
+    (finished_copy / "programs/povray").write_text(f"#!/bin/sh\nls -A $TMPDIR > {seen}\nexit 3\n")
+    (finished_copy / "programs/povray").chmod(0o755)
+    environment = {"PATH": f"{finished_copy}/programs:/bin", "TMPDIR": str(finished_copy / "tmp"),
+                   "HOME": str(finished_copy / home)}
+    result = subprocess.run([shutil.which(JOSTLE), "report", "run"], cwd=finished_copy, capture_output=True, text=True,
+                            env=environment, check=False, timeout=120)
+    assert result.returncode == DONE and result.stderr.count("\n") == 1, result.stderr
+    assert seen.read_text() == "" and list((finished_copy / "tmp").iterdir()) == []
+    assert not list((finished_copy / "run").glob(".*"))
+
+
 def test_a_run_that_was_stopped(tmp_path):
     """No averages yet, and the page says so."""
     write_scene(tmp_path, with_steps(RODS, 10**6))
