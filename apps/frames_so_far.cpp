@@ -1,9 +1,14 @@
 #include "frames_so_far.hpp"
 
 #include <fcntl.h>
-#include <stdlib.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
+#include <random>
+#include <string_view>
 
 #include "jostle/io/checkpoint.hpp"
 #include "jostle/io/durable_file.hpp"
@@ -15,15 +20,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder of its own, gone with all that is in it when this ends.
+/// A folder of its own beside the output, gone with all that is in it when this ends. Named and locked as
+/// presentation/output_place.py does, so that what a kill leaves is removed by the next report.
 class TemporaryFolder {
 public:
-    TemporaryFolder() {
-        if (mkdtemp(path_.data()) == nullptr) throw DiskError(path_, "cannot make a temporary folder", errno);
+    explicit TemporaryFolder(const std::string& parent) {
+        do path_ = parent + "/.jostle-" + eight_letters() + ".tmp";
+        while (::mkdir(path_.c_str(), 0700) < 0 && errno == EEXIST);
+        lock_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        if (lock_ < 0) throw DiskError(parent, "make a folder in it", errno);
+        ::flock(lock_, LOCK_EX | LOCK_NB);
     }
     ~TemporaryFolder() {
         std::error_code left;
         fs::remove_all(path_, left);
+        ::close(lock_);
     }
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
@@ -31,20 +42,30 @@ public:
     std::string file(const std::string& name) const { return path_ + "/" + name; }
 
 private:
-    std::string path_ = (fs::temp_directory_path() / "jostle.XXXXXX").string();
+    static std::string eight_letters() {
+        constexpr std::string_view known = "abcdefghijklmnopqrstuvwxyz0123456789_";
+        std::random_device random;
+        std::string letters;
+        for (int k = 0; k < 8; ++k) letters += known[random() % known.size()];
+        return letters;
+    }
+
+    std::string path_;
+    int lock_ = -1;
 };
 
 }  // namespace
 
-std::optional<int> frames_so_far(const std::string& folder) {
+std::optional<int> frames_so_far(const std::string& folder, const std::string& beside) {
     const std::string made = folder + "/trajectory.h5";
     std::string journal = folder + "/trajectory.journal";
     const bool kept = file_exists(journal);
     if (file_exists(made) && (!kept || fs::last_write_time(made) >= fs::last_write_time(journal))) return std::nullopt;
-    const TemporaryFolder temporary;
+    if (!file_exists(beside)) return std::nullopt;  // which is for the report to refuse
+    const std::optional<Checkpoint> last = kept ? std::nullopt : latest_checkpoint(folder);
+    if (!kept && !last) return std::nullopt;
+    const TemporaryFolder temporary(beside);
     if (!kept) {
-        const std::optional<Checkpoint> last = latest_checkpoint(folder);
-        if (!last) return std::nullopt;
         journal = temporary.file("journal");
         TrajectoryJournal::create(journal).append(last->step, last->time, last->box, last->rods);
     }

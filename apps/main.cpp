@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 
 #include "check_command.hpp"
 #include "exit_code.hpp"
@@ -64,12 +65,12 @@ CLI::App* add_stress_command(CLI::App& app, StressOptions& options) {
     return stress;
 }
 
-/// Reads the command line, and does what it says.
 /// What `report` draws in the place of trajectory.h5; empty: nothing. What is damaged is said, and the page made
 /// without it.
-std::string frames_of(const std::string& folder) {
+std::string frames_of(const std::string& folder, const std::string& out) {
     try {
-        const std::optional<int> frames = frames_so_far(folder);
+        const std::string beside = out.empty() ? folder : std::filesystem::absolute(out).parent_path().string();
+        const std::optional<int> frames = frames_so_far(folder, beside);
         return frames ? fmt::format("/dev/fd/{}", *frames) : "";
     } catch (const jostle::InputError& error) {
         fmt::print(stderr, "jostle: {}\n", error.what());
@@ -77,6 +78,7 @@ std::string frames_of(const std::string& folder) {
     }
 }
 
+/// Reads the command line, and does what it says.
 ExitCode obey(int argc, char** argv) {
     CLI::App app{"jostle: collision stress of assemblies of rods"};
     app.set_version_flag("--version",
@@ -148,7 +150,7 @@ ExitCode obey(int argc, char** argv) {
     if (verify->parsed()) return verify_command(folder);
     if (exporter->parsed()) return presentation_command("export", {"--to=" + format, "--out=" + out, "--", folder});
     return presentation_command("report", {"--width=" + width, "--megabytes=" + megabytes,
-                                           "--frames=" + frames_of(folder), "--out=" + out, "--", folder});
+                                           "--frames=" + frames_of(folder, out), "--out=" + out, "--", folder});
 }
 
 }  // namespace

@@ -86,6 +86,16 @@ def test_python_programs(program):
             assert not any(keyword.arg == "shell" for keyword in node.keywords), program
 
 
+def test_a_report_of_a_run_that_goes_on_needs_no_shared_place(torn_copy):
+    """It makes a trajectory of what the journal holds so far."""
+    (torn_copy / "run/trajectory.h5").unlink(missing_ok=True)
+    before = {path.name for path in (torn_copy / "run").iterdir()}
+    result = command(torn_copy, "report", "run", "--out", "page", "--width", "100", env={**os.environ, "TMPDIR": "/nowhere"})
+    assert result.returncode == DONE and (torn_copy / "page/report.html").exists(), result.stderr
+    assert {path.name for path in (torn_copy / "run").iterdir()} == before
+    assert not list(torn_copy.glob(".*"))
+
+
 def test_nothing_is_left_in_shared_places(tmp_path):
     """A run, its exports and its report write to its folder alone; TMPDIR, HOME and the folder from which they start stay
     as they were."""

@@ -41,6 +41,11 @@ def test_a_flipped_bit_in_hdf5(folder):
     assert sorted(folder.iterdir()) == before  # no core file
 
 
+def test_hdf5_in_which_the_library_walks_in_circles(folder):
+    shutil.copy(INPUTS / "contacts_without_end.h5", folder / "contacts.h5")
+    require_one_line(refused_hdf5(folder), "contacts.h5: the library that reads it failed (signal: CPU time limit exceeded)")
+
+
 def test_hdf5_where_the_ends_of_children_are_not_waited_for(folder):
     """As under a starter that has SIGCHLD ignored."""
     import signal

@@ -5,8 +5,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <new>
 #include <stdexcept>
@@ -29,9 +31,16 @@ bool write_all(int descriptor, const std::string& bytes) {
     return true;
 }
 
-[[noreturn]] void be_the_child(int answer, const std::function<std::string()>& make) {
-    constexpr rlimit none = {0, 0};
-    ::setrlimit(RLIMIT_CORE, &none);
+void limit_to(rlim_t most, decltype(RLIMIT_CORE) resource) {
+    rlimit limit{};
+    ::getrlimit(resource, &limit);
+    limit.rlim_cur = std::min(limit.rlim_max, most);
+    ::setrlimit(resource, &limit);
+}
+
+[[noreturn]] void be_the_child(int answer, double seconds, const std::function<std::string()>& make) {
+    limit_to(0, RLIMIT_CORE);
+    limit_to(static_cast<rlim_t>(std::ceil(seconds)), RLIMIT_CPU);
     const int nowhere = ::open("/dev/null", O_RDWR);
     for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (standard != answer) ::dup2(nowhere, standard);
@@ -68,13 +77,13 @@ std::string end_of(pid_t child) {
 
 }  // namespace
 
-std::string bytes_from_child(const std::string& path, const std::function<std::string()>& make) {
+std::string bytes_from_child(const std::string& path, double seconds, const std::function<std::string()>& make) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) < 0)
         throw std::runtime_error(std::string("cannot make a pipe: ") + std::strerror(errno));
     const pid_t child = ::fork();
     const int error_number = errno;
-    if (child == 0) be_the_child(ends[1], make);
+    if (child == 0) be_the_child(ends[1], seconds, make);
     ::close(ends[1]);
     if (child < 0) {
         ::close(ends[0]);

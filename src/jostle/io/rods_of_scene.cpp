@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "jostle/error/input_error.hpp"
+#include "jostle/error/one_line.hpp"
 #include "jostle/io/durable_file.hpp"
 #include "jostle/io/rods_file.hpp"
 #include "jostle/io/springs_file.hpp"
@@ -25,10 +26,11 @@ constexpr double most_edges_away = 1e6;
 std::filesystem::path named_file(const char* key, const std::string& name, const std::filesystem::path& scene_path) {
     const std::filesystem::path file = scene_path.parent_path() / name;  // an absolute path replaces the folder
     if (file_exists(file.string())) return file;
-    throw InputError({.key = key,
-                      .value = "\"" + name + "\"",
-                      .problem = fmt::format("there is no such file: {}", file.string()),
-                      .suggestion = "Check the name, which counts from the scene's folder"});
+    throw InputError(
+        {.key = key,
+         .value = "\"" + name + "\"",
+         .problem = fmt::format("there is no such file: {}", on_one_line(file.string(), longest_file_name)),
+         .suggestion = "Check the name, which counts from the scene's folder"});
 }
 
 /// The keys that a file with the rods' own speeds needs, and does not go with.
