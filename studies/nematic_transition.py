@@ -15,7 +15,7 @@ import reference_values
 from layers import layer_order
 from report import per_cent, with_error
 from runs import Run
-from stress_tensor import Tensor, predicted_normal_difference
+from stress_tensor import Tensor, predicted_normal_difference, whole_stress
 
 BETA = 5
 RMS_STEP, LONG_STEP = 0.03, 0.06
@@ -74,6 +74,7 @@ def evaluate(report, runs_by_name, quick):
             rest = centre.normal_difference(director)
             parts.append([start, f"{phi:.2f}", with_error(*geometric), with_error(*demanded),
                           per_cent(geometric[0], demanded[0], geometric[1]), with_error(*rest),
+                          with_error(*whole_stress(run, series).normal_difference(director)),
                           *(f"{value:.2f}" for value in layer_order(run, director))])
             report.compare(f"{state}: normal difference of the geometric stress", geometric, demanded, 0.02)
             if phi < reference_values.LAYERS_ABOVE:
@@ -93,9 +94,9 @@ def evaluate(report, runs_by_name, quick):
                  "1/(6 D_R) = 29), n_S how many independent samples of S the run holds (below ten: no error bar).",
                  ["start", "phi", "Z", "Monte Carlo Z", "difference, %", "S", "Monte Carlo S", "tau_S", "n_S", "anisotropy",
                   "predicted"], rows)
-    report.table("Normal stress difference along less across the director, over n kT, in the nematic: geometric part, what equilibrium demands of it, and the rest. "
+    report.table("Normal stress difference along less across the director, over n kT, in the nematic: geometric part, what equilibrium demands of it, the rest, and the whole stress (theory, eq. 1.19). "
                  "Layers: mean of |sum exp(i q.r)|/N over the frames, largest of all q that fit the box (0.03 would be chance), and their spacing in D.",
-                 ["start", "phi", "geometric", "3 B S", "difference, %", "rest", "layers", "spacing"], parts)
+                 ["start", "phi", "geometric", "3 B S", "difference, %", "rest", "whole", "layers", "spacing"], parts)
     report.numbers(["start", "phi", "Z", "Z_error", "S", "S_error", "S_correlation_time", "S_samples", "anisotropy",
                  "anisotropy_predicted", "anisotropy_error"], numbers)
     report.remark("The anisotropy is the one that equilibrium demands of Z and S as they are. Whether these are right is another question: near the "
