@@ -54,7 +54,7 @@ H5mdAttributes trajectory_attributes(const RunScene& run_scene, const std::strin
 }  // namespace
 
 Run::Run(const RunOptions& options, const RunScene& scene, Simulation& simulation, RunFiles& files,
-         const RunDirectory& directory, StepSums sums)
+         const RunDirectory& directory, StepSums sums, nlohmann::ordered_json start)
     : options_(options),
       run_scene_(scene),
       scene_(scene.scene),
@@ -63,7 +63,7 @@ Run::Run(const RunOptions& options, const RunScene& scene, Simulation& simulatio
       directory_(directory),
       sums_(std::move(sums)),
       length_(scene_, simulation.settings().time_step, free_clocks(scene_, simulation.mobility(), simulation.rods())),
-      record_(directory, options),
+      record_(directory, options, std::move(start)),
       progress_(options.quiet || options.json) {
     simulation_.interrupt_when(
         [this, kept = std::min(kept_within_step, largest_part_kept * options.wall_time.value_or(0.0))] {

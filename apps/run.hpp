@@ -17,9 +17,10 @@
 /// A run from its beginning, or from its checkpoint, to its end.
 class Run {
 public:
-    /// Holds references. `sums`: as they are where `simulation` stands.
+    /// Holds references. `sums`: as they are where `simulation` stands. `start`: how that was made (start_entry); null
+    /// if the run goes on.
     Run(const RunOptions& options, const RunScene& scene, jostle::Simulation& simulation, RunFiles& files,
-        const jostle::RunDirectory& directory, jostle::StepSums sums);
+        const jostle::RunDirectory& directory, jostle::StepSums sums, nlohmann::ordered_json start = nullptr);
 
     /// Makes steps, and writes what is due, until the run is over or has to stop.
     ExitCode go();

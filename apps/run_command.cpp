@@ -11,6 +11,8 @@
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/simulation/assemble.hpp"
 #include "run.hpp"
+#include "start_entry.hpp"
+#include "start_watch.hpp"
 
 using namespace jostle;
 
@@ -61,7 +63,10 @@ ExitCode start_run(const RunOptions& options, const RunScene& scene, std::string
         std::fprintf(stderr, "jostle: placing %llu rods without overlap\n",
                      static_cast<unsigned long long>(rods.count));
     // The start is made before anything is touched on the disk: a scene that does not work out leaves no trace.
-    Beginning beginning = beginning_of(scene.scene, scene.path);
+    StartWatch watch(options);
+    Beginning beginning = beginning_of(scene.scene, scene.path, [&](const Annealing& now) { watch.see(now); });
+    const nlohmann::ordered_json start = start_entry(scene.scene, beginning);
+    if (!options.quiet && !options.json) std::fputs(start_text(start, watch.seconds()).c_str(), stderr);
     Simulation simulation =
         assemble(scene.scene, beginning.box, std::move(beginning.rods), {}, std::move(beginning.springs));
     if (options.fresh) folder = freed(folder, options.quiet);
@@ -69,7 +74,7 @@ ExitCode start_run(const RunOptions& options, const RunScene& scene, std::string
     write_scene(scene, directory);
     const StepSums sums = first_sums(scene.scene, simulation);
     RunFiles files(directory, scene.scene, scene.resolved, simulation, sums);
-    return Run(options, scene, simulation, files, directory, sums).go();
+    return Run(options, scene, simulation, files, directory, sums, start).go();
 }
 
 ExitCode resume_run(const RunOptions& options, const RunScene& scene, const RunDirectory& directory,
@@ -105,5 +110,10 @@ ExitCode run_command(const RunOptions& options) {
             throw refused_file(folder, "this run has results but no checkpoint to go on from",
                                "Start anew with --fresh: the old run is then moved aside, not deleted");
     }
-    return start_run(options, scene, folder);
+    try {
+        return start_run(options, scene, folder);
+    } catch (const StartOutOfTime& late) {
+        std::fprintf(stderr, "jostle: %s\n", late.what());
+        return ExitCode::bad_input;  // the same again would come no farther
+    }
 }

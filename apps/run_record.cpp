@@ -47,6 +47,14 @@ Json sessions_of(const std::string& path) {
     return sessions;
 }
 
+/// How an earlier record says that the run started; null where it does not.
+Json start_of(const std::string& path) {
+    if (!jostle::file_exists(path)) return nullptr;
+    const Json record = parsed_json(jostle::read_file(path));
+    const bool tells = record.is_object() && record.contains("start") && record["start"].is_object();
+    return tells ? record["start"] : Json(nullptr);
+}
+
 }  // namespace
 
 std::string host_name() {
@@ -54,9 +62,10 @@ std::string host_name() {
     return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
-RunRecord::RunRecord(const jostle::RunDirectory& directory, const RunOptions& options)
+RunRecord::RunRecord(const jostle::RunDirectory& directory, const RunOptions& options, Json start)
     : directory_(directory),
       earlier_sessions_(sessions_of(directory.file("run.json"))),
+      start_(start.is_null() ? start_of(directory.file("run.json")) : std::move(start)),
       command_line_(options.command_line),
       started_(utc_now()),
       began_(seconds_now()) {}
@@ -72,6 +81,7 @@ void RunRecord::write(const jostle::Simulation& simulation, const std::string& e
                    {"time_step", simulation.settings().time_step},
                    {"steps", simulation.clock().step},
                    {"exit_reason", exit_reason},
+                   {"start", start_},
                    {"sessions", earlier_sessions_}};
     record["sessions"].push_back({{"started", started_},
                                   {"command", command_line_},

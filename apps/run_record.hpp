@@ -10,8 +10,9 @@
 /// run.json: with what, where and for how long a run was made; one entry a session in "sessions".
 class RunRecord {
 public:
-    /// Holds the reference. Sessions that the run.json of the folder already tells are kept.
-    RunRecord(const jostle::RunDirectory& directory, const RunOptions& options);
+    /// Holds the reference. Sessions that the run.json of the folder already tells are kept, and its start, where
+    /// `start` is null.
+    RunRecord(const jostle::RunDirectory& directory, const RunOptions& options, nlohmann::ordered_json start);
 
     /// Writes the record with what this session has come to. `exit_reason`: "running", "done", "signal 15", ...
     void write(const jostle::Simulation& simulation, const std::string& exit_reason);
@@ -19,6 +20,7 @@ public:
 private:
     const jostle::RunDirectory& directory_;
     nlohmann::ordered_json earlier_sessions_;  ///< array
+    nlohmann::ordered_json start_;             ///< how the run started; null where an earlier record of it is lost
     std::string command_line_;
     std::string started_;
     double began_ = 0.0;

@@ -210,6 +210,8 @@ def facts(run):
     yield ("compiler", record.get("compiler", ""))
     yield ("seed", str(record.get("seed", "")))
     yield ("time step", " ".join((f"{factor * record.get('time_step', 0.0):.4g}", unit)))
+    if (record.get("start") or {}).get("in_words"):
+        yield ("start", record["start"]["in_words"])
     if sessions:
         yield ("processor", sessions[-1].get("processor", ""))
         yield ("threads", str(sessions[-1].get("threads", "")))

@@ -20,7 +20,9 @@ namespace {
 
 Simulation at_the_start(const SceneInPython& scene) {
     validate(scene.scene);
-    Beginning beginning = beginning_of(scene.scene, scene.path);
+    Beginning beginning = beginning_of(scene.scene, scene.path, [](const Annealing&) {
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    });
     return assemble(scene.scene, beginning.box, std::move(beginning.rods), {}, std::move(beginning.springs));
 }
 

@@ -117,11 +117,15 @@ std::vector<Spring> springs_from_file(const Scene& scene, const std::filesystem:
     return read_springs(springs_path(scene, scene_path), rods.size(), [&](std::uint64_t id) { return length[id]; });
 }
 
-Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_path) {
+Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_path, const AnnealingWatch& watch) {
     return in_scene_file(scene_path, [&] {
         const auto from_file = rods_from_file(scene, scene_path);
         const Box box = box_of(scene, from_file);
-        Beginning beginning = {box, make_start(scene, box, from_file), {}};
+        Beginning beginning = {box, {}, {}, {}};
+        beginning.rods = make_start(scene, box, from_file, [&](const Annealing& now) {
+            beginning.annealing = now;
+            if (watch) watch(now);
+        });
         const auto mobility = make_mobility(scene, beginning.rods);
         const double step = time_step(scene, *mobility, beginning.rods);
         require_countable_steps(scene, step);

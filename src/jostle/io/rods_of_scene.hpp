@@ -10,6 +10,7 @@
 #include "jostle/rods/box.hpp"
 #include "jostle/rods/rods.hpp"
 #include "jostle/rods/spring.hpp"
+#include "jostle/simulation/anneal.hpp"
 #include "jostle/simulation/scene.hpp"
 
 namespace jostle {
@@ -19,6 +20,7 @@ struct Beginning {
     Box box;
     Rods rods;
     std::vector<Spring> springs;
+    Annealing annealing;  ///< of a random start
 };
 
 /// Reads the rods file of a scene with start = "file", if it has one; a relative path counts from the scene's folder.
@@ -45,7 +47,8 @@ auto in_scene_file(const std::filesystem::path& scene_path, Call&& call) {
     }
 }
 
-/// Makes the start of a scene. Errors: InputError where the rods do not fit, or move too fast for the time step.
-Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_path);
+/// Makes the start of a scene; `watch` sees how it is annealed. Errors: InputError where the rods do not fit, or move
+/// too fast for the time step.
+Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_path, const AnnealingWatch& watch = {});
 
 }  // namespace jostle

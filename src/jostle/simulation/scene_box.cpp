@@ -46,4 +46,13 @@ double random_start_limit(double aspect_ratio) {
     return std::min(0.60 / (1.0 + aspect_ratio / 15.0), 4.5 / std::max(aspect_ratio, 1.0));
 }
 
+double isotropic_limit(double aspect_ratio) {
+    constexpr double shortest = 3.5, onsager = 3.29, as_simulated = 1.05;
+    if (aspect_ratio < shortest) return INFINITY;
+    // g phi (1 - 3 phi/4) = 3.29 (1 - phi)^2
+    const double g = aspect_ratio * aspect_ratio / (aspect_ratio + 2.0 / 3.0);
+    const double a = onsager + 0.75 * g, b = 2.0 * onsager + g;
+    return as_simulated * (b - std::sqrt(b * b - 4.0 * a * onsager)) / (2.0 * a);
+}
+
 }  // namespace jostle

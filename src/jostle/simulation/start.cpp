@@ -10,6 +10,7 @@
 #include "jostle/rods/space_filling_order.hpp"
 #include "jostle/simulation/largest_overlap.hpp"
 #include "jostle/simulation/scattered_rods.hpp"
+#include "jostle/simulation/scene_box.hpp"
 
 namespace jostle {
 
@@ -136,6 +137,17 @@ Rods checked(Rods rods, const Box& box, const Scene& scene) {
 
 void require_lattice_fits(const Scene& scene, const Box& box) {
     if (scene.rods.start == StartKind::lattice) lattice_of(scene, box);
+}
+
+std::string start_warning(const Scene& scene, double volume_fraction) {
+    const double aspect_ratio = scene.rods.length / scene.rods.diameter, limit = isotropic_limit(aspect_ratio);
+    const bool in_equilibrium =
+        scene.motion.brownian && scene.motion.self_propulsion == 0.0 && scene.growth.rate == 0.0;
+    if (scene.rods.start != StartKind::random || !in_equilibrium || volume_fraction <= limit) return "";
+    return fmt::format(
+        "a random start is isotropic, and beyond a volume fraction of about {:.2f} rods of L/D = {:.3g} "
+        "order, which takes longer than most runs: start = \"aligned\" is nearer to equilibrium",
+        limit, aspect_ratio);
 }
 
 Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& from_file, const AnnealingWatch& watch) {

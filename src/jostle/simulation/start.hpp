@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "jostle/rods/box.hpp"
 #include "jostle/simulation/anneal.hpp"
@@ -18,6 +19,10 @@ namespace jostle {
 /// Throws InputError where the rods do not fit.
 Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& from_file = std::nullopt,
                 const AnnealingWatch& watch = {});
+
+/// What a user has to know of the start of a scene whose passive rods are to come to equilibrium, at this volume
+/// fraction: one sentence, or none.
+std::string start_warning(const Scene& scene, double volume_fraction);
 
 /// Whether the rods of a scene with start = "lattice" fit into the box in rows, without making them. Errors:
 /// InputError.
