@@ -8,6 +8,7 @@
 #include "frames_so_far.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/error/one_line.hpp"
+#include "keys_command.hpp"
 #include "presentation_command.hpp"
 #include "run_command.hpp"
 #include "standard_streams.hpp"
@@ -108,6 +109,10 @@ ExitCode obey(int argc, char** argv) {
     CLI::App* check = app.add_subcommand("check", "Validate a scene and print what follows from it; runs nothing");
     check->add_option("scene", scene, "scene file (TOML)")->required();
 
+    bool keys_as_json = false;
+    CLI::App* keys = app.add_subcommand("keys", "List the keys of a scene, with what each admits");
+    keys->add_flag("--json", keys_as_json, "print JSON");
+
     std::string folder;
     CLI::App* verify = app.add_subcommand("verify", "Check the files of a run for damage");
     verify->add_option("folder", folder, "folder of a run")->required();
@@ -146,6 +151,7 @@ ExitCode obey(int argc, char** argv) {
     options.wall_time = seconds_of(wall_time);
     if (run->parsed()) return run_command(options);
     if (check->parsed()) return check_command(scene);
+    if (keys->parsed()) return keys_command(keys_as_json);
     if (stress->parsed()) return stress_command(stress_options);
     if (verify->parsed()) return verify_command(folder);
     if (exporter->parsed()) return presentation_command("export", {"--to=" + format, "--out=" + out, "--", folder});

@@ -1,0 +1,66 @@
+"""What the campaigns share: a case that failed, running the command within limits, and what every run of it must keep."""
+
+import os
+import resource
+import subprocess
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "cli"))
+from jostle_command import BAD_INPUT, DISK, DONE, JOSTLE, NUMERICS, STOPPED  # noqa: E402
+
+MOST_MEMORY = 2 * 1024**3  # bytes of address space that one command may take
+MOST_SECONDS = 60.0
+
+
+class Defect(Exception):
+    """A promise of the program that a case broke, in one sentence."""
+
+
+def limited():
+    resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+def jostle(folder, *arguments, environment=None, seconds=MOST_SECONDS):
+    """Runs the command to its end in the folder. Defect if it hangs."""
+    try:
+        return subprocess.run([JOSTLE, *map(str, arguments)], cwd=folder, capture_output=True, timeout=seconds,
+                              stdin=subprocess.DEVNULL, preexec_fn=None if sanitized() else limited,
+                              env={**os.environ, "OMP_NUM_THREADS": "1", **(environment or {})})
+    except subprocess.TimeoutExpired:
+        raise Defect(f"no end within {seconds:.0f} s: {' '.join(map(str, arguments))}") from None
+
+
+def sanitized():
+    """Whether the command was built with the address sanitizer, which reserves more address space than any limit."""
+    return "asan" in Path(JOSTLE).resolve().parts
+
+
+def require_ending(result, *allowed):
+    """The exit status is one of those allowed; a refusal is one clear line; errors of sanitizers are found."""
+    errors = result.stderr.decode(errors="backslashreplace")
+    if b"Sanitizer" in result.stderr or b"runtime error:" in result.stderr:
+        raise Defect(f"a sanitizer reports: {errors[:2000]}")
+    if result.returncode not in allowed:
+        raise Defect(f"exit status {result.returncode}, allowed {allowed}: {errors[:500]}")
+    if result.returncode in (BAD_INPUT, DISK):
+        require_one_clear_line(result.stderr)
+
+
+def require_one_clear_line(stderr):
+    """`jostle: ...`, valid text without control characters, not endless, and more than a name."""
+    lines = [line for line in stderr.split(b"\n") if line and not line.startswith(b"jostle: going on from step")]
+    if len(lines) != 1 or not lines[0].startswith(b"jostle: ") or len(lines[0]) < 20:
+        raise Defect(f"a refusal is not one line: {stderr[:500]!r}")
+    if len(lines[0]) > 2000:
+        raise Defect(f"a refusal of {len(lines[0])} bytes: {stderr[:200]!r}")
+    try:
+        text = lines[0].decode()
+    except UnicodeDecodeError:
+        raise Defect(f"a refusal that is no text: {stderr[:500]!r}") from None
+    if any(ord(sign) < 32 or ord(sign) == 127 for sign in text):
+        raise Defect(f"a refusal with control characters: {stderr[:500]!r}")
+
+
+__all__ = ["BAD_INPUT", "DISK", "DONE", "Defect", "NUMERICS", "STOPPED", "jostle", "require_ending"]
