@@ -80,6 +80,10 @@ def combined(bodies):
     >>> pair.centre, (pair.second_moment / pair.mass)[0, 0].round(12)
     (array([0.5, 0. , 0. ]), 0.3)
     """
+    bodies = list(bodies)
+    for body in bodies:
+        if not isinstance(body, Body):
+            refuse("bodies", f"a {type(body).__name__}", "is no body", "a Body, as body_moments gives it")
     parts = [body._single() for body in bodies]
     if not parts:
         refuse("bodies", "[]", "has no body in it", "at least one")

@@ -259,6 +259,8 @@ def test_many_bodies_where_one_is_needed():
         random_body((4,)).rotated(ROTATION)
     with pytest.raises(jostle.InputError, match="has no body in it"):
         jostle.combined([])
+    with pytest.raises(jostle.InputError, match="bodies = a int: is no body"):
+        jostle.combined([1])
 
 
 def test_orientation_stress():
