@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <new>
 #include <stdexcept>
@@ -40,7 +39,7 @@ void limit_to(rlim_t most, decltype(RLIMIT_CORE) resource) {
 
 [[noreturn]] void be_the_child(int answer, double seconds, const std::function<std::string()>& make) {
     limit_to(0, RLIMIT_CORE);
-    limit_to(static_cast<rlim_t>(std::ceil(seconds)), RLIMIT_CPU);
+    limit_to(static_cast<rlim_t>(seconds), RLIMIT_CPU);
     const int nowhere = ::open("/dev/null", O_RDWR);
     for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (standard != answer) ::dup2(nowhere, standard);

@@ -216,7 +216,7 @@ std::string answer_of(const std::string& path, const KnownColumns& known) {
 Table read_hdf5_table(const std::string& path, const KnownColumns& known) {
     // A megabyte holds a thousand at most, which take a second or two. In a damaged file the library may walk in
     // circles.
-    const double seconds = 5.0 + 5e-6 * static_cast<double>(ReadFile(path).size());
+    const double seconds = 1.0 + 1e-5 * static_cast<double>(ReadFile(path).size());
     const std::string bytes = bytes_from_child(path, seconds, [&] { return answer_of(path, known); });
     ByteReader answer(bytes);
     if (answer.take<Answer>() == Answer::refusal) throw refused_file(path, answer.take_text(), "");
