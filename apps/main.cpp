@@ -132,6 +132,20 @@ ExitCode obey(int argc, char** argv) {
     report->add_option("--megabytes", megabytes, "room for the rods in the page; of more frames it holds some")
         ->capture_default_str();
 
+    std::string frame = "-1", view, colour;
+    report->add_option("--frame", frame, "what to begin with: number of a frame, from 0, or from -1 backwards")
+        ->capture_default_str();
+    CLI::App* movie = app.add_subcommand("movie", "Make a film of a run: one camera, one scale of colours");
+    movie->add_option("folder", folder, "folder of a run")->required();
+    movie->add_option("--out", out, "MP4 file; default: movie.mp4 in the folder of the run");
+    std::string size = "1280x720", fps = "12";
+    movie->add_option("--size", size, "width and height in pixels")->capture_default_str();
+    movie->add_option("--fps", fps, "pictures a second")->capture_default_str();
+    for (CLI::App* pictures : {report, movie}) {
+        pictures->add_option("--view", view, "look along x, y or z; default: from above and aside");
+        pictures->add_option("--colour", colour, "direction, angle, speed, ...; default: what suits the run");
+    }
+
     StressOptions stress_options;
     CLI::App* stress = add_stress_command(app, stress_options);
 
@@ -155,8 +169,12 @@ ExitCode obey(int argc, char** argv) {
     if (stress->parsed()) return stress_command(stress_options);
     if (verify->parsed()) return verify_command(folder);
     if (exporter->parsed()) return presentation_command("export", {"--to=" + format, "--out=" + out, "--", folder});
-    return presentation_command("report", {"--width=" + width, "--megabytes=" + megabytes,
-                                           "--frames=" + frames_of(folder, out), "--out=" + out, "--", folder});
+    if (movie->parsed())
+        return presentation_command("movie", {"--size=" + size, "--fps=" + fps, "--view=" + view, "--colour=" + colour,
+                                              "--frames=" + frames_of(folder, out), "--out=" + out, "--", folder});
+    return presentation_command(
+        "report", {"--width=" + width, "--megabytes=" + megabytes, "--frame=" + frame, "--view=" + view,
+                   "--colour=" + colour, "--frames=" + frames_of(folder, out), "--out=" + out, "--", folder});
 }
 
 }  // namespace

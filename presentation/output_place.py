@@ -27,6 +27,13 @@ def place(out, default, name_in_folder=None):
     return target
 
 
+def keep_temporary_files_in(folder):
+    """Matplotlib keeps its list of fonts in the user's own folder, or, without one, where all users do."""
+    tempfile.tempdir = str(folder)
+    if not os.access(Path.home(), os.W_OK):
+        os.environ.setdefault("MPLCONFIGDIR", str(folder))
+
+
 @contextlib.contextmanager
 def replaced_file(target, is_ours):
     """Gives a temporary name to write to; at the end it becomes the target. `is_ours(path)`: may be replaced."""

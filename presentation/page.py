@@ -36,7 +36,7 @@ def text(run, folder, curves, view, rods, tiles, notes):
              f"<title>{title}</title>\n<style>{viewer_parts.style()}</style>\n{plotting or ''}</head>\n<body>\n"
              f'<header><h1>{title}</h1><p class="subtitle">{html.escape(subtitle(run))}</p></header>\n',
              f'<main>\n<div class="first">\n{figure(folder, view, rods)}<aside>\n{verdict_list(run)}{tile_list(tiles)}'
-             f"{notes_list(notes)}</aside>\n</div>\n",
+             f"</aside>\n</div>\n{notes_list(notes)}",
              plots(folder, curves), averages(run), the_run(run), "</main>\n"]
     told = {"time": dict(zip(("label", "unit"), ("time", run.in_unit("time")[1]))), "curves": [told_curve(c) for c in curves]}
     if rods:

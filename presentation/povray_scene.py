@@ -81,9 +81,10 @@ def box_edges(frame):
 
 
 class Camera:
-    """Looks from above along the shortest edge's side onto the whole box: the longest edge lies across the picture."""
+    """Looks from above along the shortest edge's side onto the whole box: the longest edge lies across the picture. With
+    `view` "x", "y" or "z" it looks along that axis. `aspect`: of the picture, else as suits the box."""
 
-    def __init__(self, frame):
+    def __init__(self, frame, view="", aspect=None):
         low, high = extent(frame)
         edges = high - low
         shortest, middle, longest = np.argsort(edges, kind="stable")[[0, 1, 2]]
@@ -93,12 +94,14 @@ class Camera:
         if np.dot(np.cross(across, away), up) < 0.0:
             away = -away  # a right-handed set: the picture is no mirror image
         towards = _unit(0.42 * across - 1.0 * away + 0.42 * up)  # from the box to the viewer
+        if view:
+            towards, up = {"x": np.eye(3)[[0, 2]], "y": (-np.eye(3)[1], np.eye(3)[2]), "z": np.eye(3)[[2, 1]]}[view]
         self.direction, self.pole = -towards, up
         self.right = _unit(np.cross(self.direction, up))
         self.up = np.cross(self.right, self.direction)
-        self._fit(frame)
+        self._fit(frame, aspect)
 
-    def _fit(self, frame):
+    def _fit(self, frame, aspect):
         """As near as shows everything, in a picture as wide as suits the box."""
         low, high = extent(frame)
         corners = low + np.array(list(np.ndindex(2, 2, 2))) * (high - low)
@@ -111,7 +114,7 @@ class Camera:
         # Shifted so that what is seen is in the middle, then far enough for either side.
         shift = [0.5 * (values.min() + values.max()) for values in (x, y)]
         x, y = x - shift[0], y - shift[1]
-        self.aspect = float(np.clip((np.abs(x).max() + reach) / (np.abs(y).max() + reach), *ASPECTS))
+        self.aspect = aspect or float(np.clip((np.abs(x).max() + reach) / (np.abs(y).max() + reach), *ASPECTS))
         needed = np.maximum((np.abs(x) + reach) / half_width, (np.abs(y) + reach) / (half_width / self.aspect)) - depth
         self.distance = 1.03 * needed.max()
         self.location = middle + shift[0] * self.right + shift[1] * self.up - self.distance * self.direction

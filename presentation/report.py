@@ -1,6 +1,6 @@
 """jostle report: one page and a set of pictures that show a run.
 
-    report.py --out=FOLDER --width=PIXELS --megabytes=M --frames=FILE -- FOLDER
+    report.py --out=FOLDER --width=PIXELS --megabytes=M --frame=N --view=V --colour=C --frames=FILE -- FOLDER
 
 An empty --out: report in the folder of the run. --frames: H5MD to take in the place of the run's trajectory, if not empty.
 
@@ -8,10 +8,7 @@ Called by the command, which has read the command line.
 """
 
 import argparse
-import os
 import sys
-import tempfile
-from pathlib import Path
 
 import refusal
 from refusal import Refusal
@@ -26,7 +23,9 @@ def arguments():
     parser.add_argument("--out", default="")
     parser.add_argument("--width", default="1600")
     parser.add_argument("--megabytes", default="20")
-    parser.add_argument("--frames", default="")
+    parser.add_argument("--frame", default="-1")
+    for name in ("view", "colour", "frames"):
+        parser.add_argument(f"--{name}", default="")
     parser.add_argument("folder")
     return parser.parse_args()
 
@@ -56,7 +55,7 @@ def is_ours(folder):
     return marked and all(name == page.NAME or name.endswith((".png", ".pov")) for name in names)
 
 
-def rods_of(run, megabytes, frames):
+def rods_of(run, megabytes, seen, frames):
     """The rods that turn, or None, and what there is to say about them."""
     try:
         refusal.require_modules({"h5py": "python3-h5py"})
@@ -67,7 +66,7 @@ def rods_of(run, megabytes, frames):
     if trajectory.counts()[-1] == 0:
         return None, ["No view of the rods: the last frame of the trajectory has none"]
     import rods_of_page
-    rods = rods_of_page.rods_of(run, trajectory, megabytes)
+    rods = rods_of_page.rods_of(run, trajectory, megabytes, rods_of_page.Seen(*seen))
     if frames and not (run.folder / "trajectory.journal").exists():
         rods.notes.append("The run kept no trajectory: shown are the rods of its last checkpoint.")
     return rods, rods.notes
@@ -75,14 +74,16 @@ def rods_of(run, megabytes, frames):
 
 def still_of(run, rods, folder, width):
     """(file name, caption) of the picture of the rods, or None, and why there is none."""
+    import rod_colours
     import rods_view
 
-    frame = rods.frames[-1]
-    missing = rods_view.draw(frame, folder, width, run.propelled)
-    if missing:
-        return None, [f"No still picture of the rods: {missing}"]
+    frame, way = rods.frames[rods.start], rods.ways[0]
     factor, unit = run.in_unit("time")
     time = " ".join(part for part in (f"{factor * frame.time:.4g}", unit) if part)
+    missing = rods_view.draw(frame, folder, width, rods.camera, rod_colours.of_frame(way, rods.frames, rods.start), way,
+                             run.propelled, f"time {time}")
+    if missing:
+        return None, [f"No still picture of the rods: {missing}"]
     return (rods_view.PICTURE, f"The {len(frame)} rods at time {time}, as spherocylinders"), []
 
 
@@ -100,18 +101,11 @@ def colony_of(run, rods):
     return made, colony.tiles(run, rods, made)
 
 
-def keep_temporary_files_in(folder):
-    """Matplotlib keeps its list of fonts in the user's own folder, or, without one, where all users do."""
-    tempfile.tempdir = str(folder)
-    if not os.access(Path.home(), os.W_OK):
-        os.environ.setdefault("MPLCONFIGDIR", str(folder))
-
-
 def report():
     options = arguments()
     width, megabytes = width_of(options.width), megabytes_of(options.megabytes)
     refusal.require_modules({"numpy": "python3-numpy"})
-    from output_place import beside, place, replaced_folder
+    from output_place import beside, keep_temporary_files_in, place, replaced_folder
     from run_folder import read_run
 
     run = read_run(options.folder)
@@ -123,7 +117,7 @@ def report():
         import page
         import plots
         import viewer_parts
-        rods, notes = rods_of(run, megabytes, options.frames)
+        rods, notes = rods_of(run, megabytes, (options.frame, options.view, options.colour), options.frames)
         still, missing = still_of(run, rods, folder, width) if rods else (None, [])
         drawn, tiles = colony_of(run, rods) if run.is_colony else (curves.chosen(run), page.average_tiles(run))
         for curve in drawn:

@@ -1,5 +1,6 @@
 """The rods that the page turns: which frames, where they are, how they may be coloured, and what was left out."""
 
+import re
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,6 +11,15 @@ import contact_lines
 import povray_scene
 from frames_of_page import BYTES_OF_ROD, MEGABYTE, chosen_frames, packed_rods
 from lineage import Lineage
+from refusal import Refusal
+
+
+@dataclass(frozen=True)
+class Seen:
+    """What the user asked to see, as text: number of a frame from 0, or from -1 backwards; view; key of the colours."""
+    frame: str = "-1"
+    view: str = ""
+    colour: str = ""
 
 
 @dataclass
@@ -19,36 +29,71 @@ class Rods:
     elements: dict = field(default_factory=dict)
     frames: list = field(default_factory=list)
     cells: list = field(default_factory=list)  # (generation, age, family) of each frame, where cells grow
+    ways: list = field(default_factory=list)   # to colour them, the first to begin with
+    start: int = 0                             # place in `frames` of the one to begin with
+    camera: povray_scene.Camera = None         # to begin with
     notes: list = field(default_factory=list)
 
 
-def rods_of(run, trajectory, megabytes):
+def rods_of(run, trajectory, megabytes, seen):
+    """seen: what the page begins with, and the still shows."""
     counts = trajectory.counts()
     numbers = chosen_frames(counts, megabytes)
-    made = Rods(frames=[trajectory.frame(k) for k in numbers])
+    made = frames_of(run, trajectory, numbers)
     if len(numbers) < len(counts):
         made.notes.append(f"The page holds {len(numbers)} of the {len(counts)} frames, to stay within {megabytes:g} MB; "
                           "--megabytes gives it more room.")
     if counts[numbers].sum() * BYTES_OF_ROD * 4 / 3 > megabytes * MEGABYTE:
         made.notes.append("Its one frame alone is larger than that.")
+    first = way_of(made, seen.colour)
+    made.ways.sort(key=lambda way: way is not first)
+    made.start = int(np.abs(numbers - frame_number(seen.frame, len(counts))).argmin())
+    made.camera = povray_scene.Camera(made.frames[made.start], view_of(seen.view))
+    _describe(run, made)
+    return made
+
+
+def frames_of(run, trajectory, numbers=None):
+    """The frames with these numbers, or all, and the ways to colour them."""
+    made = Rods(frames=[trajectory.frame(k) for k in (range(len(trajectory)) if numbers is None else numbers)])
     if run.grows and (run.folder / "lineage.csv").exists():
         lineage = Lineage(run, made.frames)
         made.cells = [lineage.at(frame) for frame in made.frames]
-    _describe(run, made)
+    made.ways = colourings.ways(run, made.frames, made.cells)
     return made
+
+
+def way_of(rods, key):
+    """The way to colour with that key; an empty one is the first."""
+    found = next((way for way in rods.ways if key in ("", way.key)), None)
+    if found is None:
+        raise Refusal(f'--colour = "{key}"', f"this run has no such colours (allowed: {', '.join(way.key for way in rods.ways)})")
+    return found
+
+
+def frame_number(text, frames):
+    number = int(text) if re.fullmatch(r"-?\d{1,9}", text) else frames
+    if not -frames <= number < frames:
+        raise Refusal(f"--frame = {text}", f"there is no such frame (allowed: 0 to {frames - 1}, or -1 for the last)")
+    return number % frames
+
+
+def view_of(name):
+    if name not in ("", "x", "y", "z"):
+        raise Refusal(f'--view = "{name}"', "there is no such view (allowed: x, y, z)", "Without it, rods are seen from above and aside")
+    return name
 
 
 def _describe(run, made):
     frames = made.frames
     extent = _extent(frames)
     rods = packed_rods(frames, extent)
-    ways = colourings.colourings(run, rods, frames, made.cells)
     low, high = povray_scene.extent(frames[-1])
-    camera = povray_scene.Camera(frames[-1])
+    camera = made.camera
     factor, _ = run.in_unit("time")
     rods.told["times"] = [factor * time for time in rods.told["times"]]
-    made.told = {"rods": rods.told, "colourings": ways, "map": _map(), "swim": run.propelled,
-                 "length_unit": run.in_unit("max_overlap")[1],
+    made.told = {"rods": rods.told, "colourings": [colourings.told(way, rods) for way in made.ways], "map": _map(), "swim": run.propelled,
+                 "start": made.start, "length_unit": run.in_unit("max_overlap")[1],
                  "seen": _seen(frames[-1]).tolist(),
                  "box": [low.tolist(), high.tolist()] if frames[-1].periodic.any() else None,
                  "camera": {"back": (-camera.direction).tolist(), "pole": camera.pole.tolist()}}

@@ -57,7 +57,7 @@ async function showRods(figure) {
   });
   stage.append(cornerButtons(view));
   figure.append(bar.element, lookBar(view, colouring));
-  bar.go(told.rods.times.length - 1);
+  bar.go(told.start);
 }
 
 function frameAt(time) {

@@ -293,6 +293,11 @@ def test_what_is_refused(finished_copy):
         require_one_line(refused("run", "--out", taken), "is not replaced")
     require_one_line(refused("run", "--out", "nowhere/report"), "nowhere", "there is no such folder")
     assert snapshot(finished_copy) == before
+    # What depends on the frames is refused when they have been read; of what was begun nothing is left.
+    require_one_line(refused("run", "--frame", "99"), "99", "0 to 8")
+    require_one_line(refused("run", "--view", "w"), "w", "x, y, z")
+    require_one_line(refused("run", "--colour", "age"), "age", "direction, angle, speed, id, plain")
+    assert snapshot(finished_copy).keys() == before.keys()
 
 
 def test_a_report_with_something_of_the_users_in_it_is_kept(averaged):
