@@ -236,7 +236,8 @@ def test_only_self_propulsion(tmp_path):
 
 
 SWIMMERS = changed(RODS, rods={"count": 1, "length": 2.0}, box={"volume_fraction": None, "edges": [5.0, 5.0, 5.0]},
-                   motion={"brownian": False, "self_propulsion": 1.0}, output={"series_every": 5, "contacts": False})
+                   mobility={"model": "finite_aspect_ratio"}, motion={"brownian": False, "self_propulsion": 1.0},
+                   output={"series_every": 5, "contacts": False})
 
 
 def test_active_stress_of_one_swimmer(tmp_path):
