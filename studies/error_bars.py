@@ -28,7 +28,7 @@ STATES = {
     "nematic, L/D 5, phi 0.46": ({"box": {"volume_fraction": 0.46}, "rods": {"count": 100, "length": 5.0, "start": "aligned"}, "time": {"rms_step": 0.06}}, 3000,
                                  (2000, 9000, 18000)),
     "swimmers, L/D 3, phi 0.15": ({"box": {"volume_fraction": 0.15}, "rods": {"count": 64, "length": 3.0},
-                                   "motion": {"self_propulsion": 1.0, "tumble_rate": 0.1, "tumble_time": 2.0}}, 2000, (800, 6000, 20000)),
+                                   "motion": {"self_propulsion": 1.0, "tumble_rate": 0.1, "tumble_time": 2.0}}, 2000, (250, 6000, 20000)),
     "growing cells": ({"box": {"volume_fraction": 0.10}, "rods": {"count": 64, "length": 2.0},
                        "growth": {"rate": 0.05, "division_length": 5.0}, "time": {"step": 0.02}}, 0, (2000,)),
 }
