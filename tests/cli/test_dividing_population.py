@@ -77,7 +77,7 @@ def test_a_population_that_dies_out_ends_well(tmp_path):
 
 
 def test_soft_cells_that_have_died_out_go_on(tmp_path):
-    write_scene(tmp_path, changed(CELLS, growth={"death_rate": 20.0}, contact={"model": "wca"}))
+    write_scene(tmp_path, changed(CELLS, growth={"death_rate": 20.0}, contact={"model": "wca"}, time={"step": 0.005}))
     for _ in range(2):
         result = run(tmp_path)
         assert result.returncode == DONE and "all cells have died" in result.stderr

@@ -7,7 +7,7 @@ import subprocess
 
 import pytest
 
-from jostle_command import (DISK, DONE, RODS, STOPPED, changed, checkpoint_step, command, finish, kill,
+from jostle_command import (DISK, DONE, RODS, STOPPED, changed, checkpoint_step, command, finish, kill, lines_but_notices,
                             require_same_results, rows_of, run, start, wait_until, with_steps, write_scene)
 
 ADVICE = "Make room and run the same command again: it goes on from the last checkpoint"
@@ -31,7 +31,7 @@ def file_size_limit(size):
 def require_disk_error(result, name=""):
     assert result.returncode == DISK, (result.returncode, result.stdout, result.stderr)
     assert result.stdout == ""
-    lines = [line for line in result.stderr.splitlines() if not line.startswith("jostle: going on from step ")]
+    lines = lines_but_notices(result.stderr)
     assert len(lines) == 1 and lines[0].startswith("jostle: "), result.stderr
     assert name in lines[0] and ADVICE in lines[0], result.stderr
 

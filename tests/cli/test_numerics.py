@@ -4,8 +4,8 @@ import json
 
 import pytest
 
-from jostle_command import (DONE, NUMERICS, RODS, changed, checkpoint_step, column, command, finish, require_one_line,
-                            run, snapshot, with_steps, write_scene)
+from jostle_command import (DONE, NUMERICS, RODS, changed, checkpoint_step, column, command, finish, lines_but_notices,
+                            require_one_line, run, snapshot, with_steps, write_scene)
 
 TIGHT = {"solver": {"max_iterations": 1}}
 # 125 spheres in rows through a periodic box that is a little too small for them: there is no room for any push.
@@ -27,7 +27,7 @@ def require_failure(folder, *parts):
     result = run(folder)
     assert result.returncode == NUMERICS, (result.returncode, result.stdout, result.stderr)
     assert result.stdout == ""
-    lines = [line for line in result.stderr.splitlines() if "going on from step" not in line]
+    lines = lines_but_notices(result.stderr)
     assert len(lines) == 3, result.stderr
     assert lines[0].startswith("jostle: step ") and lines[2] == "  details: run/post_mortem.json"
     for part in parts:

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "cli"))
-from jostle_command import BAD_INPUT, DISK, DONE, JOSTLE, NUMERICS, STOPPED  # noqa: E402
+from jostle_command import BAD_INPUT, DISK, DONE, JOSTLE, NOTICES, NUMERICS, STOPPED  # noqa: E402
 
 MOST_MEMORY = 2 * 1024**3  # bytes of address space that one command may take
 MOST_SECONDS = 60.0
@@ -50,7 +50,8 @@ def require_ending(result, *allowed):
 
 def require_one_clear_line(stderr):
     """`jostle: ...`, valid text without control characters, not endless, and more than a name."""
-    lines = [line for line in stderr.split(b"\n") if line and not line.startswith(b"jostle: going on from step")]
+    notices = tuple(notice.encode() for notice in NOTICES)
+    lines = [line for line in stderr.split(b"\n") if line and not line.startswith(notices)]
     if len(lines) != 1 or not lines[0].startswith(b"jostle: ") or len(lines[0]) < 20:
         raise Defect(f"a refusal is not one line: {stderr[:500]!r}")
     if len(lines[0]) > 2000:
