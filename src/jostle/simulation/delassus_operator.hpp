@@ -29,11 +29,6 @@ public:
 
     /// By how much a contact gives way.
     GivingWay::Contact giving_way(std::size_t l) const {
-        constexpr double never = 1e6;  // knees away
-        const auto [i, j] = contact_matrix_.ends()[l];
-        if (i == j)
-            return {giving_way_.own_image * diagonal_[l], 0.5 * giving_way_.own_image * diagonal_[l],
-                    never * giving_way_.knee * std::sqrt(diagonal_[l])};
         return {giving_way_.soft * diagonal_[l], giving_way_.stiff * diagonal_[l],
                 giving_way_.knee * std::sqrt(diagonal_[l])};
     }

@@ -14,7 +14,6 @@ namespace jostle {
 struct GivingWay {
     double soft = 0.0, stiff = 0.0;  ///< 0 < stiff <= soft, or both 0
     double knee = 0.0;               ///< a velocity over the root of a mobility
-    double own_image = 0.0;          ///< soft of a rod's contact with its own image, which is never stiff
 
     /// Of one contact.
     struct Contact {

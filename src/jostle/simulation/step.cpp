@@ -138,8 +138,7 @@ double Simulation::shift_of(const Contact& contact) const {
     const auto rod = [this](std::uint32_t row) {
         return DelassusOperator::Rod{rods_.axis[row], mobility_->of_rod(row)};
     };
-    return brownian_shift(settings_.kT, settings_.time_step, gap_mobility(contact, rod(contact.i), rod(contact.j)),
-                          contact.i == contact.j ? own_image_watching : discrete_watching);
+    return brownian_shift(settings_.kT, settings_.time_step, gap_mobility(contact, rod(contact.i), rod(contact.j)));
 }
 
 // Theory 2.3: 0 <= A gamma + b  perp  gamma >= 0, with more contacts where forces turn out to bring rods together.

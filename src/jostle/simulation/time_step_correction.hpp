@@ -20,24 +20,19 @@ inline constexpr double soft_compliance = 8.0, stiff_compliance = 0.05;
 inline constexpr double give_before_stiff = 1.6587265430176;
 inline constexpr double discrete_watching = 1.9388318171260;
 
-/// A rod and its own image stand alone between two walls, in narrow boxes a few steps apart: springs that reach less
-/// far serve better. kappa of one spring, and the shift that gives it as many walkers.
-inline constexpr double own_image_compliance = 0.25, own_image_watching = 0.7380301893698;
-
 /// Normals and arms of contacts are those after this part of the known motion.
 inline constexpr double half_way = 0.5;
 
 /// The shift s sqrt(2 kT dt A_ll) of a gap whose rods have the relative mobility A_ll along the normal.
-inline double brownian_shift(double kT, double time_step, double relative_mobility, double s = discrete_watching) {
-    return s * std::sqrt(2.0 * kT * time_step * relative_mobility);
+inline double brownian_shift(double kT, double time_step, double relative_mobility) {
+    return discrete_watching * std::sqrt(2.0 * kT * time_step * relative_mobility);
 }
 
 /// How contacts give way in a step: none without thermal motion.
 inline GivingWay brownian_giving_way(double kT, double time_step) {
     if (kT == 0.0) return {};
     const double sigma = std::sqrt(2.0 * kT / time_step);  // as a velocity, over the root of A_ll
-    return {soft_compliance, stiff_compliance, (1.0 - stiff_compliance / soft_compliance) * give_before_stiff * sigma,
-            own_image_compliance};
+    return {soft_compliance, stiff_compliance, (1.0 - stiff_compliance / soft_compliance) * give_before_stiff * sigma};
 }
 
 }  // namespace jostle

@@ -104,8 +104,6 @@ TEST_CASE("the shift vanishes without thermal motion, and contacts do not give w
 
 TEST_CASE("the shift belongs to the way contacts give: as many walkers as at a wall of continuous motion") {
     CHECK(walk_at_wall(ours).excess == doctest::Approx(discrete_watching).epsilon(1e-9));
-    CHECK(walk_at_wall({own_image_compliance, own_image_compliance, 0.0}).excess ==
-          doctest::Approx(own_image_watching).epsilon(1e-9));
     // Without giving way: -zeta(1/2)/sqrt(2 pi).
     CHECK(walk_at_wall({}).excess == doctest::Approx(0.5825971579390107).epsilon(1e-9));
 }
