@@ -65,8 +65,7 @@ struct PosedProblem {
     std::unique_ptr<Simulation> simulation;
     const Contacts& contacts;
     ContactMatrix contact_matrix{contacts, simulation->rods().size()};
-    DelassusOperator matrix{contact_matrix, simulation->rods(), simulation->mobility(),
-                            brownian_giving_way(simulation->settings().kT, simulation->settings().time_step)};
+    DelassusOperator matrix{contact_matrix, simulation->rods(), simulation->mobility(), contact_compliance};
     std::vector<double> b;
 };
 

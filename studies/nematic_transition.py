@@ -128,8 +128,8 @@ def compare_steps(report, runs_by_name):
             for run in (runs_by_name[name], runs_by_name[f"{name}_rms{LONG_STEP:g}"])]
     report.table(f"What the time step does to the order of a nematic next to the transition, phi = {phi:.2f}, {start} start: rms step in D.",
                  ["rms step", "Z", "S"], [*rows, ["Monte Carlo", with_error(reference.Z, reference.Z_error), with_error(reference.S, reference.S_error)]])
-    report.remark("What a finite step does to the order, and why the contacts' law was chosen as it is: "
-                  "[decision 0015](../decisions/0015-compliant-contacts.md). Next to the transition, where S answers most to anything, it shows most.")
+    report.remark("At a finite step nematics are too ordered: the correction of the time step is made to have Z right, and serves the order less well "
+                  "([decision 0015](../decisions/0015-compliant-contacts.md)). Next to the transition, where S answers most to anything, it shows most.")
 
 
 def draw(report, points):

@@ -65,22 +65,6 @@ JOSTLE_VECTORISED void glance_at(std::size_t count, Batch& batch) {
     }
 }
 
-/// The contacts of a pair as it lies after a part of its way from `before` to `after`. Says whether there are any:
-/// where the rods have passed through each other by then, there are not.
-bool append_on_the_way(const PairName& name, const PairGeometry& before, const NearestPoints& nearest,
-                       const PairGeometry& after, double part, double range, Contacts& contacts) {
-    const auto between = [part](const Vec3& a, const Vec3& b) { return a + part * (b - a); };
-    const auto axis = [&](const Vec3& a, const Vec3& b) { return between(a, b) / norm(between(a, b)); };
-    PairGeometry pair = before;
-    pair.between = between(before.between, after.between);
-    pair.axis_i = axis(before.axis_i, after.axis_i);
-    pair.axis_j = axis(before.axis_j, after.axis_j);
-    const NearestPoints then = nearest_points(pair);
-    if (dot(then.separation, nearest.separation) <= 0.0) return false;
-    append_contacts(name, pair, then, norm(then.separation), range, contacts);
-    return true;
-}
-
 }  // namespace
 
 PairGeometry pair_geometry_after(const Rods& rods, const Box& box, const PairName& name, const RodAfter& after) {
@@ -184,7 +168,7 @@ void CollisionSearch::look_closely(const PairName& name, std::uint16_t in_block,
     double touching = most_touching(motion.touching, name);
     if (always || gap_after - touching < motion.margin) {
         const std::size_t known = found.contacts.size();
-        touching = append(name, before, nearest, after, motion, found.contacts);
+        touching = append(name, before, nearest, distance, after, motion, found.contacts);
         if (always || gap_after - touching < motion.margin) return;
         found.contacts.resize(known);
     }
@@ -198,26 +182,23 @@ void CollisionSearch::look_closely(const PairName& name, std::uint16_t in_block,
 
 /// Appends the contacts of a pair, with their room. Returns the gap at which the first of them touches.
 double CollisionSearch::append(const PairName& name, const PairGeometry& before, const NearestPoints& nearest,
-                               const PairGeometry& after, const RodMotion& motion, Contacts& contacts) const {
+                               double distance, const PairGeometry& after, const RodMotion& motion,
+                               Contacts& contacts) const {
     const std::size_t first = contacts.size();
     const auto own_image =
         name.i == name.j && !motion.forces_at_start ? contact_with_own_image(name, after) : std::nullopt;
     if (own_image) {
         contacts.push_back(*own_image, name.image, ContactFeature::nearest);
-        contacts.contact[first].gap = norm(nearest.separation) - before.radii;
+        contacts.contact[first].gap = distance - before.radii;
         const double gap = motion.touching.of(*own_image);
         contacts.contact[first].room -= gap;
         return gap;
     }
-    const double range = reach_[name.i] + reach_[name.j];
-    const bool moved = motion.normals_after > 0.0 &&
-                       append_on_the_way(name, before, nearest, after, motion.normals_after, range, contacts);
-    if (!moved) append_contacts(name, before, nearest, norm(nearest.separation), range, contacts);
+    append_contacts(name, before, nearest, distance, reach_[name.i] + reach_[name.j], contacts);
     double largest = 0.0;
     for (std::size_t l = first; l < contacts.size(); ++l) {
         Contact& contact = contacts.contact[l];
         const double gap = motion.touching.of(contact);
-        if (moved) contact.gap = gap_of_contact(contact, contacts.feature[l], before);
         contact.room = gap_of_contact(contact, contacts.feature[l], after) - gap;
         largest = std::max(largest, gap);
     }
@@ -261,7 +242,7 @@ std::vector<PairName> CollisionSearch::missed_pairs(const Rods& rods, const Box&
         const PairGeometry before = pair_geometry(rods, i, j, box.displacement(image), rods.centre, rods.axis);
         const NearestPoints nearest = nearest_points(before);
         Contacts points;
-        return gap < append(name, before, nearest, pair, motion, points);
+        return gap < append(name, before, nearest, norm(nearest.separation), pair, motion, points);
     };
     // Whether a pair is near enough to be among the bystanders does not depend on the history of the list if neither
     // rod is pushed beyond the allowance; the others wait for the thorough search.
@@ -314,7 +295,7 @@ void CollisionSearch::add(std::span<const PairName> missed, const Rods& rods, co
         const PairGeometry before = pair_geometry(rods, i, j, displacement, rods.centre, rods.axis);
         const PairGeometry after = pair_geometry(rods, i, j, displacement, motion.centre, motion.axis);
         const NearestPoints nearest = nearest_points(before);
-        append(name, before, nearest, after, motion, contacts);
+        append(name, before, nearest, norm(nearest.separation), after, motion, contacts);
         added_.push_back(name);
     }
     std::sort(added_.begin(), added_.end());

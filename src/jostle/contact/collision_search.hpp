@@ -24,9 +24,8 @@ struct RodMotion {
     std::span<const double> displacement;  ///< (N) by the known motion, of any point of the rod, at most
     double push_allowance;                 ///< rods that forces push farther have all their neighbours looked at
     double travel;                         ///< of the neighbour list
-    double margin;         ///< pairs with a gap wider than touching by this are bystanders; at most 2 push_allowance
-    double range;          ///< contacts with a smaller gap are always taken (0: those that overlap)
-    double normals_after;  ///< normals and arms of contacts are those after this part of the known motion, 0 to 1
+    double margin;  ///< pairs with a gap wider than touching by this are bystanders; at most 2 push_allowance
+    double range;   ///< contacts with a smaller gap are always taken (0: those that overlap)
     Touching touching;
     bool forces_at_start = false;  ///< forces follow from where rods are before the step: there they meet their images
 };
@@ -101,7 +100,7 @@ private:
     }
     void look_closely(const PairName& name, std::uint16_t in_block, const Rods& rods, const Box& box,
                       const RodMotion& motion, Found& found) const;
-    double append(const PairName& name, const PairGeometry& before, const NearestPoints& nearest,
+    double append(const PairName& name, const PairGeometry& before, const NearestPoints& nearest, double distance,
                   const PairGeometry& after, const RodMotion& motion, Contacts& contacts) const;
     void search_block(std::size_t block, const Rods& rods, const Box& box, const RodMotion& motion);
     static bool may_meet(const Bystander& bystander, const Push& i, const Push& j);

@@ -5,7 +5,6 @@
 #include "jostle/lcp/apgd.hpp"
 #include "jostle/lcp/bbpgd.hpp"
 #include "jostle/lcp/minimum_map_newton.hpp"
-#include "jostle/parallel/parallel_for.hpp"
 #include "jostle/simulation/projected_sor.hpp"
 
 namespace jostle {
@@ -24,77 +23,6 @@ LcpResult solve_lcp(const LcpProblem& problem, SolverMethod method, const LcpSet
         default:
             return solve_adaptive_bb(problem, settings, start);
     }
-}
-
-/// Contacts that give way, as a linear problem of twice the size. Each rests on two springs side by side, one soft and
-/// one, which begins to push at the knee, so stiff that the two together are what is asked for:
-///
-///     [A + soft   A       ] [force of the soft one ]   [b       ]
-///     [A          A + rest] [force of the stiff one] + [b + give]
-class TwoSprings final : public LinearOperator {
-public:
-    TwoSprings(const DelassusOperator& matrix, std::span<const double> b)
-        : matrix_(matrix), contacts_(matrix.size()), constant_(2 * contacts_), diagonal_(2 * contacts_) {
-        rest_.resize(contacts_);
-        both_.resize(contacts_);
-        rates_.resize(contacts_);
-        parallel_for(contacts_, [&](std::size_t l) {
-            const GivingWay::Contact way = matrix.giving_way(l);
-            const double softer = way.soft > way.stiff ? way.soft / (way.soft - way.stiff) : 0.0;  // 0 where A_ll is
-            rest_[l] = softer * way.stiff;
-            diagonal_[l] = matrix.diagonal()[l] + way.soft;
-            diagonal_[contacts_ + l] = matrix.diagonal()[l] + rest_[l];
-            constant_[l] = b[l];
-            constant_[contacts_ + l] = b[l] + softer * way.knee;
-        });
-    }
-
-    std::size_t size() const override { return 2 * contacts_; }
-    std::span<const double> diagonal() const override { return diagonal_; }
-    std::span<const double> constant() const { return constant_; }
-
-    void apply(std::span<const double> x, std::span<double> result) const override {
-        const auto soft = x.first(contacts_), stiff = x.last(contacts_);
-        parallel_for(contacts_, [&](std::size_t l) { both_[l] = soft[l] + stiff[l]; });
-        matrix_.apply(both_, rates_);
-        parallel_for(contacts_, [&](std::size_t l) {
-            result[l] = rates_[l] + matrix_.giving_way(l).soft * soft[l];
-            result[contacts_ + l] = rates_[l] + rest_[l] * stiff[l];
-        });
-    }
-
-    /// The forces of the springs, of those of the contacts; and back.
-    std::vector<double> split(std::span<const double> gamma) const {
-        std::vector<double> forces(2 * contacts_);
-        parallel_for(contacts_, [&](std::size_t l) {
-            const GivingWay::Contact way = matrix_.giving_way(l);
-            forces[l] = way.soft > 0.0 ? way.by(gamma[l]) / way.soft : gamma[l];
-            forces[contacts_ + l] = gamma[l] - forces[l];
-        });
-        return forces;
-    }
-    std::vector<double> join(std::span<const double> forces) const {
-        std::vector<double> gamma(contacts_);
-        parallel_for(contacts_, [&](std::size_t l) { gamma[l] = forces[l] + forces[contacts_ + l]; });
-        return gamma;
-    }
-
-private:
-    const DelassusOperator& matrix_;
-    std::size_t contacts_;
-    std::vector<double> constant_, diagonal_, rest_;
-    mutable std::vector<double> both_, rates_;  ///< scratch
-};
-
-/// By descent, from `start` (empty: from 0).
-LcpResult solve_by_descent(const ContactProblem& problem, SolverMethod method, const LcpSettings& settings,
-                           std::span<const double> start) {
-    if (!problem.matrix.gives_way()) return solve_lcp(problem.lcp(), method, settings, start);
-    const TwoSprings springs(problem.matrix, problem.constant);
-    const std::vector<double> split = start.empty() ? std::vector<double>{} : springs.split(start);
-    LcpResult result = solve_lcp({springs, springs.constant(), problem.time_step}, method, settings, split);
-    result.solution = springs.join(result.solution);
-    return result;
 }
 
 }  // namespace
@@ -126,7 +54,7 @@ SolverOutcome solve_contact_problem(const ContactProblem& problem, SolverMethod 
         solution.resize(matrix.contact_matrix());
         const bool from_zero = outcome.solves == 0 && problem.start.empty();
         LcpResult result =
-            solve_by_descent(problem, method, settings, from_zero ? std::span<const double>{} : solution.gamma);
+            solve_lcp(problem.lcp(), method, settings, from_zero ? std::span<const double>{} : solution.gamma);
         solution.gamma = std::move(result.solution);
         matrix.velocities(solution.gamma, solution.forces, solution.velocities);
         outcome = {result.status, result.residual, outcome.iterations + result.iterations, outcome.solves + 1};

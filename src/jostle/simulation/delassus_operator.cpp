@@ -28,8 +28,8 @@ double gap_mobility(const Contact& contact, const Rod& i, const Rod& j) {
 }
 
 DelassusOperator::DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods, const Mobility& mobility,
-                                   const GivingWay& giving_way)
-    : contact_matrix_(contact_matrix), all_rods_(rods), mobility_(mobility), giving_way_(giving_way) {
+                                   double compliance)
+    : contact_matrix_(contact_matrix), all_rods_(rods), mobility_(mobility), compliance_(compliance) {
     extend();
 }
 
@@ -45,7 +45,7 @@ void DelassusOperator::extend() {
     parallel_for(diagonal_.size() - known_contacts, [&](std::size_t k) {
         const std::size_t l = known_contacts + k;
         const auto [i, j] = contact_matrix_.ends()[l];
-        diagonal_[l] = gap_mobility(contact_matrix_.contacts().contact[l], rods_[i], rods_[j]);
+        diagonal_[l] = (1.0 + compliance_) * gap_mobility(contact_matrix_.contacts().contact[l], rods_[i], rods_[j]);
     });
 }
 
@@ -53,14 +53,14 @@ void DelassusOperator::apply(std::span<const double> gamma, std::span<double> ra
     forces_.resize(rods_.size());
     velocities_.resize(rods_.size());
     velocities(gamma, forces_, velocities_);
-    contact_matrix_.apply_transpose(velocities_, rates);
+    this->rates(velocities_, gamma, rates);
 }
 
 void DelassusOperator::rates(std::span<const ContactVelocity> velocities, std::span<const double> gamma,
                              std::span<double> rates) const {
     contact_matrix_.apply_transpose(velocities, rates);
-    if (!gives_way()) return;
-    parallel_for(rates.size(), [&](std::size_t l) { rates[l] += giving_way(l).by(gamma[l]); });
+    if (!compliant()) return;
+    parallel_for(rates.size(), [&](std::size_t l) { rates[l] += compliance(l) * gamma[l]; });
 }
 
 void DelassusOperator::velocities(std::span<const double> gamma, std::span<ContactForce> forces,

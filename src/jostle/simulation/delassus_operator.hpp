@@ -1,22 +1,19 @@
 #pragma once
 
-#include <cmath>
-
 #include "jostle/contact/contact_matrix.hpp"
 #include "jostle/lcp/linear_operator.hpp"
 #include "jostle/mobility/mobility.hpp"
-#include "jostle/simulation/giving_way.hpp"
 
 namespace jostle {
 
 /// A = D^T M D (theory, eq. 2.4): gap velocities caused by contact forces. The place where contact and mobility meet.
 ///
-/// Never formed: one application is a gather over the rods that have contacts, the mobility, and a pass over contacts.
-/// Knows by how much contacts give way beside it. Holds references.
+/// With a compliance kappa it is D^T M D + kappa diag(D^T M D) (theory, eq. 3.5): positive definite. Never formed: one
+/// application is a gather over the rods that have contacts, the mobility, and a pass over contacts. Holds references.
 class DelassusOperator final : public LinearOperator {
 public:
     DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods, const Mobility& mobility,
-                     const GivingWay& giving_way = {});
+                     double compliance = 0.0);
 
     /// Takes in what the contact matrix has been extended by.
     void extend();
@@ -24,15 +21,12 @@ public:
     std::size_t size() const override { return contact_matrix_.size(); }
     void apply(std::span<const double> gamma, std::span<double> rates) const override;
 
-    /// A_ll of each rod's own mobility (for a mobility that couples rods, the local part of it).
+    /// A_ll of each rod's own mobility (for a mobility that couples rods, the local part of it), compliance included.
     std::span<const double> diagonal() const override { return diagonal_; }
 
-    /// By how much a contact gives way.
-    GivingWay::Contact giving_way(std::size_t l) const {
-        return {giving_way_.soft * diagonal_[l], giving_way_.stiff * diagonal_[l],
-                giving_way_.knee * std::sqrt(diagonal_[l])};
-    }
-    bool gives_way() const { return giving_way_.soft > 0.0; }
+    /// kappa (D^T M D)_ll
+    double compliance(std::size_t l) const { return compliance_ * (diagonal_[l] / (1.0 + compliance_)); }
+    bool compliant() const { return compliance_ > 0.0; }
 
     const ContactMatrix& contact_matrix() const { return contact_matrix_; }
 
@@ -44,7 +38,7 @@ public:
     std::span<const Rod> rods() const { return rods_; }  ///< (places)
     bool couples_rods() const { return mobility_.couples_rods(); }
 
-    /// A gamma, from M D gamma, and what the contacts give way beside it.
+    /// A gamma, from M D gamma.
     void rates(std::span<const ContactVelocity> velocities, std::span<const double> gamma,
                std::span<double> rates) const;
 
@@ -58,7 +52,7 @@ private:
     const ContactMatrix& contact_matrix_;
     const Rods& all_rods_;
     const Mobility& mobility_;
-    GivingWay giving_way_;
+    double compliance_;
     std::vector<Rod> rods_;
     std::vector<double> diagonal_;
     mutable std::vector<ContactForce> forces_;         ///< (places) scratch

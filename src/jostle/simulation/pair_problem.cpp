@@ -62,8 +62,9 @@ double violation(const PairMatrix& pair, const Points& without, const Points& ga
     return largest;
 }
 
-/// The problem of contacts that do not give way.
-void solve_linear_problem(const PairMatrix& pair, const Points& velocity, Points& target) {
+}  // namespace
+
+void solve_own_problem(const PairMatrix& pair, const Points& velocity, Points& target) {
     Points without{};
     PointSet pushing = 0;
     for (std::uint32_t a = 0; a < pair.count; ++a) {
@@ -92,37 +93,6 @@ void solve_linear_problem(const PairMatrix& pair, const Points& velocity, Points
         if (here < least) {
             least = here;
             target = *gamma;
-        }
-    }
-}
-
-}  // namespace
-
-void solve_own_problem(const PairMatrix& pair, const std::array<GivingWay::Contact, most_points>& giving_way,
-                       const Points& velocity, Points& target) {
-    constexpr int most_guesses = 8;  // three contacts have eight combinations of springs
-    const Points before = target;
-    const auto on_stiff = [&](std::uint32_t a, double gamma) {
-        return giving_way[a].soft * gamma > giving_way[a].knee + giving_way[a].stiff * gamma;
-    };
-    std::array<bool, most_points> stiff{};
-    for (std::uint32_t a = 0; a < pair.count; ++a) stiff[a] = on_stiff(a, before[a]);
-    bool settled = false;
-    for (int guess = 0; guess < most_guesses && !settled; ++guess) {
-        PairMatrix with_springs = pair;
-        Points felt = velocity;
-        for (std::uint32_t a = 0; a < pair.count; ++a) {
-            const double spring = stiff[a] ? giving_way[a].stiff : giving_way[a].soft;
-            with_springs.matrix[a][a] += spring;
-            felt[a] += spring * before[a] + (stiff[a] ? giving_way[a].knee : 0.0);
-        }
-        target = before;
-        solve_linear_problem(with_springs, felt, target);
-        settled = true;
-        for (std::uint32_t a = 0; a < pair.count; ++a) {
-            const bool now = on_stiff(a, target[a]);
-            settled = settled && now == stiff[a];
-            stiff[a] = now;
         }
     }
 }

@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "jostle/simulation/giving_way.hpp"
-
 namespace jostle {
 
 inline constexpr std::size_t most_points = 3;    ///< contacts of one pair (append_contacts)
@@ -18,14 +16,11 @@ struct PairMatrix {
 };
 
 /// The pair's own contact problem with all other forces as they are: `target` holds gamma on entry and gamma* on
-/// return; `velocity`, of the gaps on entry, without what the contacts give way.
-///
-/// Which springs the contacts rest on is guessed from `target`, and again from each solution, until it stays.
+/// return; `velocity`, of the gaps on entry.
 ///
 /// Every set of active points is tried, first that of `target`; where signs are right it is the solution. Where
 /// rounding leaves none, the set that violates the conditions least is taken. Nearly singular sets are left out: where
 /// three points are dependent, two of them do as well.
-void solve_own_problem(const PairMatrix& pair, const std::array<GivingWay::Contact, most_points>& giving_way,
-                       const Points& velocity, Points& target);
+void solve_own_problem(const PairMatrix& pair, const Points& velocity, Points& target);
 
 }  // namespace jostle

@@ -10,10 +10,10 @@ namespace jostle {
 namespace {
 
 /// Over-relaxation: measured best between 1.3 and 1.4 for hard contacts of dilute and isotropic rods, between 1.0
-/// and 1.1 for those that give way, whose problem is better conditioned; harder problems want more, and so do those
-/// that begin warm, with what is left to the slowest modes of a crowd.
-double relaxation(std::uint64_t sweep, bool gives_way, bool warm) {
-    return sweep >= 60 || warm ? 1.6 : gives_way ? 1.1 : 1.35;
+/// and 1.1 for compliant ones, whose matrix is better conditioned; harder problems want more, and so do those that
+/// begin warm, with what is left to the slowest modes of a crowd.
+double relaxation(std::uint64_t sweep, bool compliant, bool warm) {
+    return sweep >= 60 || warm ? 1.6 : compliant ? 1.1 : 1.35;
 }
 
 /// Every so many sweeps, and after a verification, one passes over all contacts. Beginning warm, most of them rest, and
@@ -49,7 +49,7 @@ public:
         std::uint64_t next_verification = 0;
         for (int failures = 0; outcome.iterations < settings_.max_iterations;) {
             const bool all = look_at_all || outcome.iterations % period == period - 1;
-            const double omega = relaxation(outcome.iterations, problem_.matrix.gives_way(), warm);
+            const double omega = relaxation(outcome.iterations, problem_.matrix.compliant(), warm);
             const double change = problem_.time_step * sweeper_.sweep(omega, all ? SweepOver::all : SweepOver::awake);
             ++outcome.iterations;
             look_at_all = false;

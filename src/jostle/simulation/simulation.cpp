@@ -117,16 +117,8 @@ RodMotion Simulation::motion() const {
     const auto shift = [this](const Contact& contact) {
         return settings_.brownian_correction ? shift_of(contact) : 0.0;
     };
-    return {moved_.centre,
-            moved_.axis,
-            displacement_,
-            push_allowance_,
-            travel_,
-            margin_,
-            range_,
-            corrects_brownian_motion() ? half_way : 0.0,
-            {largest_shift_, shift},
-            settings_.wca_energy > 0.0};
+    return {moved_.centre, moved_.axis, displacement_,           push_allowance_,           travel_,
+            margin_,       range_,      {largest_shift_, shift}, settings_.wca_energy > 0.0};
 }
 
 /// Every so many steps, a function of the state alone: a run that was stopped goes on with the same rows.

@@ -133,7 +133,7 @@ void Simulation::find_contacts(StepReport& report) {
     report.max_overlap = search_.find(rods_, box_, motion(), contacts_);
 }
 
-// Theory 3: the gap at which contacts begin to push, eq. 3.5.
+// Theory 3: the gap at which two compliant contacts touch, eq. 3.5.
 double Simulation::shift_of(const Contact& contact) const {
     const auto rod = [this](std::uint32_t row) {
         return DelassusOperator::Rod{rods_.axis[row], mobility_->of_rod(row)};
@@ -146,9 +146,8 @@ void Simulation::solve_contacts(StepReport& report) {
     using Include = ContactMatrix::Include;
     ContactMatrix contact_matrix(contacts_, rods_.size(),
                                  mobility_->couples_rods() ? Include::all_rods : Include::rods_with_contacts);
-    const GivingWay giving_way =
-        corrects_brownian_motion() ? brownian_giving_way(settings_.kT, settings_.time_step) : GivingWay{};
-    DelassusOperator matrix(contact_matrix, rods_, *mobility_, giving_way);
+    const double compliance = corrects_brownian_motion() ? contact_compliance : 0.0;
+    DelassusOperator matrix(contact_matrix, rods_, *mobility_, compliance);
     std::vector<double> b, start;
     extend_gap_velocities(b);
     if (settings_.warm_start) start = warm_start_.guess(contacts_);

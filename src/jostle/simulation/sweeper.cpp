@@ -184,14 +184,9 @@ SweptContact<Real> Sweeper<Real>::contact_of(std::uint32_t l) const {
     contact.answer_j = answer(j, on_j);
     contact.b = static_cast<Real>(b_[l]);
     contact.gamma = static_cast<Real>(start_[l]);
-    const GivingWay::Contact giving_way = matrix_.giving_way(l);
-    const auto inverse = [&](double mobility) { return static_cast<Real>(diagonal > 0.0 ? 1.0 / mobility : 0.0); };
-    contact.soft = static_cast<Real>(giving_way.soft);
-    contact.stiff = static_cast<Real>(giving_way.stiff);
-    contact.knee = static_cast<Real>(giving_way.knee);
+    contact.compliance = static_cast<Real>(matrix_.compliance(l));
     contact.diagonal = static_cast<Real>(diagonal);
-    contact.inverse_soft = inverse(diagonal + giving_way.soft);
-    contact.inverse_stiff = inverse(diagonal + giving_way.stiff);
+    contact.inverse_diagonal = static_cast<Real>(diagonal > 0.0 ? 1.0 / diagonal : 0.0);
     contact.i = i;
     contact.j = j;
     contact.number = l;
@@ -209,7 +204,7 @@ SweptPair Sweeper<Real>::pair_of(std::uint32_t first, std::uint32_t count) const
     for (std::uint32_t a = 0; a < count; ++a) {
         const std::uint32_t l = first + a;
         const Contact& contact = matrix_.contact_matrix().contacts().contact[l];
-        pair.points[a] = {contact.normal, contact.arm_i, contact.arm_j, b_[l], start_[l], matrix_.giving_way(l)};
+        pair.points[a] = {contact.normal, contact.arm_i, contact.arm_j, b_[l], start_[l], matrix_.compliance(l)};
     }
     for (std::uint32_t c = 0; c < count; ++c) {
         ContactForce on_i, on_j;
@@ -218,6 +213,7 @@ SweptPair Sweeper<Real>::pair_of(std::uint32_t first, std::uint32_t count) const
         const ContactVelocity of_i = velocity_of(matrix_.rods()[i], on_i.force, on_i.lever);
         const ContactVelocity of_j = velocity_of(matrix_.rods()[j], on_j.force, on_j.lever);
         for (std::uint32_t a = 0; a < count; ++a) pair.matrix[a][c] = gap_rate(pair.points[a], of_i, of_j);
+        pair.matrix[c][c] += pair.points[c].compliance;
     }
     return pair;
 }

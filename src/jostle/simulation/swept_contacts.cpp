@@ -25,7 +25,8 @@ double feasible_relaxation(const SweptPair& pair, const Points& target, double o
 template <class Real>
 double solve(SweptContact<Real>& contact, double omega, const Places<Real>& places) {
     // Without a jump: which contacts push changes from sweep to sweep, and processors guess it badly.
-    const Real relaxed = contact.gamma + static_cast<Real>(omega) * contact.wanted(places.velocities);
+    const Real relaxed =
+        contact.gamma - static_cast<Real>(omega) * contact.gap_velocity(places.velocities) * contact.inverse_diagonal;
     const Real change = std::max(relaxed, Real{0}) - contact.gamma;
     contact.push(change, places.velocities);
     return std::fabs(change) * contact.diagonal;
@@ -35,16 +36,14 @@ template <class Real>
 double solve(SweptPair& pair, double omega, const Places<Real>& places) {
     const ContactVelocity i = places.velocities[pair.i].velocity(), j = places.velocities[pair.j].velocity();
     Points velocity{}, target{};
-    std::array<GivingWay::Contact, most_points> giving_way;
     bool idle = true;
     for (std::uint32_t a = 0; a < pair.count; ++a) {
-        velocity[a] = pair.points[a].hard_velocity(i, j);
+        velocity[a] = pair.points[a].gap_velocity(i, j);
         target[a] = pair.points[a].gamma;
-        giving_way[a] = pair.points[a].giving_way;
         idle = idle && target[a] == 0.0 && velocity[a] >= 0.0;
     }
     if (idle) return 0.0;
-    solve_own_problem(pair, giving_way, velocity, target);
+    solve_own_problem(pair, velocity, target);
     const double factor = feasible_relaxation(pair, target, omega);
     double largest = 0.0;
     ContactForce on_i, on_j;

@@ -41,23 +41,14 @@ template <class Real>
 struct SweptContact {
     Wide<Real> column_i, column_j, answer_i, answer_j;
     Real b = 0, gamma = 0;
-    Real soft = 0, stiff = 0, knee = 0;        ///< as those of GivingWay::Contact
-    Real diagonal = 0;                         ///< A_ll
-    Real inverse_soft = 0, inverse_stiff = 0;  ///< 1/(A_ll + soft) and so on; 0 where no force can open the gap
-    std::uint32_t i = 0, j = 0;                ///< places
-    std::uint32_t number = 0;                  ///< of the contact
+    Real compliance = 0;         ///< by which a force gives way, a part of A_ll
+    Real diagonal = 0;           ///< A_ll
+    Real inverse_diagonal = 0;   ///< 0 where no force can open the gap
+    std::uint32_t i = 0, j = 0;  ///< places
+    std::uint32_t number = 0;    ///< of the contact
 
-    /// Without what the contact gives way.
-    Real hard_velocity(const Wide<Real>* velocities) const {
-        return b + sum_of_products(column_i, velocities[i], column_j, velocities[j]);
-    }
     Real gap_velocity(const Wide<Real>* velocities) const {
-        return hard_velocity(velocities) + std::min(soft * gamma, knee + stiff * gamma);
-    }
-    /// The change of its force that solves the contact's own problem: the larger of what either spring wants.
-    Real wanted(const Wide<Real>* velocities) const {
-        const Real velocity = hard_velocity(velocities);
-        return std::max(-(velocity + soft * gamma) * inverse_soft, -(velocity + knee + stiff * gamma) * inverse_stiff);
+        return b + compliance * gamma + sum_of_products(column_i, velocities[i], column_j, velocities[j]);
     }
     void push(Real change, Wide<Real>* velocities) {
         gamma += change;
@@ -72,14 +63,10 @@ struct SweptPair : PairMatrix {
     struct Point {
         Vec3 normal;
         double arm_i, arm_j;
-        double b, gamma;  // as those of a SweptContact
-        GivingWay::Contact giving_way;
+        double b, gamma, compliance;  // as those of a SweptContact
 
-        double hard_velocity(const ContactVelocity& rod_i, const ContactVelocity& rod_j) const {
-            return b + gap_rate(*this, rod_i, rod_j);
-        }
         double gap_velocity(const ContactVelocity& rod_i, const ContactVelocity& rod_j) const {
-            return hard_velocity(rod_i, rod_j) + giving_way.by(gamma);
+            return b + compliance * gamma + gap_rate(*this, rod_i, rod_j);
         }
     };
     std::uint32_t i, j;   ///< places

@@ -46,10 +46,9 @@ struct Moves {
             pushed.push_back(i);
         }
     }
-    RodMotion motion(double range = 0.0, double normals_after = 0.0) const {
-        return {centre,    axis,          displacement,
-                allowance, travel,        margin,
-                range,     normals_after, {touching_part, [](const Contact&) { return touching; }}};
+    RodMotion motion(double range = 0.0) const {
+        return {centre, axis,   displacement, allowance,
+                travel, margin, range,        {touching_part, [](const Contact&) { return touching; }}};
     }
 };
 
@@ -179,43 +178,4 @@ TEST_CASE("what is found does not depend on when the neighbour list was built") 
     }
     CHECK(early > 10);
     CHECK(late > early / 2);
-}
-
-TEST_CASE("normals and arms are those after a part of the known motion, gaps those before it, and room is after it") {
-    const unsigned seed = 23;
-    MESSAGE("seed ", seed);
-    std::mt19937_64 engine(seed);
-    const Box box{{18, 18, 18}, {true, true, true}};
-    const Rods rods = thrown(150, box, 5.0, 1.0, engine);
-    const Moves moves(rods, 0.05, 0.0, engine);
-    Moves half = moves;
-    for (std::uint32_t i = 0; i < rods.size(); ++i) {
-        half.centre[i] = 0.5 * (rods.centre[i] + moves.centre[i]);
-        const Vec3 axis = rods.axis[i] + moves.axis[i];
-        half.axis[i] = axis / norm(axis);
-    }
-    CollisionSearch search;
-    Contacts contacts;
-    search.find(rods, box, moves.motion(0.0, 0.5), contacts);
-    std::size_t turned = 0;
-    for (std::size_t l = 0; l < contacts.size(); ++l) {
-        const Contact& contact = contacts.contact[l];
-        if (contacts.feature[l] != ContactFeature::nearest) continue;
-        const auto pair = [&](const std::vector<Vec3>& centre, const std::vector<Vec3>& axis) {
-            return pair_geometry(rods, contact.i, contact.j, box.displacement(contacts.image[l]), centre, axis);
-        };
-        const PairGeometry before = pair(rods.centre, rods.axis);
-        const NearestPoints on_the_way = nearest_points(pair(half.centre, half.axis));
-        if (dot(on_the_way.separation, nearest_points(before).separation) <= 0.0) continue;  // passed through
-        const Vec3 normal = on_the_way.separation / norm(on_the_way.separation);
-        CHECK(norm(contact.normal - normal) < 1e-12);
-        CHECK(contact.arm_i == doctest::Approx(on_the_way.s_i).epsilon(1e-12));
-        CHECK(contact.arm_j == doctest::Approx(on_the_way.s_j).epsilon(1e-12));
-        CHECK(std::fabs(contact.gap) == doctest::Approx(std::fabs(pair_gap(before))).epsilon(1e-12));
-        const PairGeometry after = pair(moves.centre, moves.axis);
-        if (dot(nearest_points(after).separation, normal) <= 0.0) continue;
-        CHECK(contact.room == doctest::Approx(pair_gap(after) - touching).epsilon(1e-12));
-        turned += norm(normal - nearest_points(before).separation / norm(nearest_points(before).separation)) > 0.01;
-    }
-    CHECK(turned > 20);
 }
