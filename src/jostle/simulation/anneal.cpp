@@ -20,7 +20,7 @@ namespace {
 // Monte Carlo (docs/decisions/0029-annealed-starts.md).
 
 /// Tries to put a rod down elsewhere in a sweep: they cost less than one shift.
-constexpr int placings = 4;
+constexpr int placings_a_sweep = 4;
 /// The price in kT at which it is over: few pairs overlap any more, and hardly any rod can be put down elsewhere.
 constexpr double last_price = 8.0;
 /// The price rises as fast as rods forget where they were: by so much when all have been put down elsewhere once, and
@@ -74,7 +74,7 @@ private:
         double share_placed = 1.0;
         for (double price = 0.0; price < last_price;) {
             price += std::max(rise_as_all_are_placed * share_placed, least_rise);
-            const MonteCarlo::Moves moves = rods.sweep(price, placings);
+            const MonteCarlo::Moves moves = rods.sweep(price, placings_a_sweep);
             share_placed = static_cast<double>(moves.placed) / static_cast<double>(moves.placings);
             ++done_.sweeps;
             tell();

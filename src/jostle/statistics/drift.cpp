@@ -12,8 +12,8 @@ namespace jostle {
 
 namespace {
 
-constexpr double significant = 2.5;  // in standard errors
-constexpr double rounding = 1e-12;   // of a change, in the largest value
+constexpr double significant = 2.5;   // in standard errors
+constexpr double negligible = 1e-12;  // change, in the largest value: rounding
 
 /// Of the mean, however few samples there are.
 double error_of_mean(const Average& average, double rows) {
@@ -48,7 +48,7 @@ Drift drift(std::span<const double> series) {
     const Average of_rest = average(rest);
     const auto [least, most] = std::minmax_element(series.begin(), series.end());
     result.change = slope * (n - 1.0);
-    if (std::fabs(result.change) <= rounding * std::max(std::fabs(*least), std::fabs(*most))) result.change = 0.0;
+    if (std::fabs(result.change) <= negligible * std::max(std::fabs(*least), std::fabs(*most))) result.change = 0.0;
     result.effective_samples = of_rest.effective_samples;
     // The slope of a line through n rows has sqrt(12/n^2) times the error of their mean.
     result.standard_error = std::sqrt(12.0) * error_of_mean(of_rest, n);
