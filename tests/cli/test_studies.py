@@ -108,7 +108,7 @@ def test_stop_and_resume(tmp_path):
     sessions = [json.loads(path.read_text())["sessions"] for path in folder.glob("runs/*/run.json")]
     assert max(len(of_run) for of_run in sessions) == 2
     assert verdict["quick"]
-    assert 4 * 8000 <= verdict["steps"] <= 4 * 8020  # times are rounded up to whole rows
+    assert 4 * 32000 <= verdict["steps"] <= 4 * 32020  # times are rounded up to whole rows
     for ending in ("csv", "png", "svg"):
         assert (folder / f"drag_independence.{ending}").stat().st_size > 100
     third = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
