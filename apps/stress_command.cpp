@@ -20,9 +20,9 @@
 
 using namespace jostle;
 
-namespace {
-
 using Json = nlohmann::ordered_json;
+
+namespace {
 
 constexpr std::array<const char*, 9> elements = {"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"};
 
