@@ -1,0 +1,67 @@
+#pragma once
+
+#include <algorithm>
+#include <numeric>
+#include <string_view>
+#include <vector>
+
+#include "jostle/io/checksum.hpp"
+#include "jostle/simulation/simulation.hpp"
+
+namespace jostle {
+
+/// The bits of numbers, one after the other, as one number (XXH3).
+class Hash {
+public:
+    template <class... Numbers>
+    void add(const Numbers&... numbers) {
+        (add_one(numbers), ...);
+    }
+    std::uint64_t value() const { return checksum_.value(); }
+
+private:
+    template <class Number>
+    void add_one(const Number& number) {
+        static_assert(std::has_unique_object_representations_v<Number> || std::is_floating_point_v<Number>);
+        checksum_.add({reinterpret_cast<const char*>(&number), sizeof number});
+    }
+    void add_one(const Vec3& vector) { add(vector.x, vector.y, vector.z); }
+    void add_one(const Mat3& matrix) {
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column < 3; ++column) add(matrix(row, column));
+    }
+
+    RunningChecksum checksum_;
+};
+
+/// The bits of a simulation's state, rods in the order of their ids.
+inline std::uint64_t state_hash(const Simulation& simulation) {
+    const Rods& rods = simulation.rods();
+    std::vector<std::size_t> rows(rods.size());
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    std::sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) { return rods.id[a] < rods.id[b]; });
+    Hash hash;
+    hash.add(simulation.clock().step, simulation.clock().time);
+    for (const std::size_t i : rows) {
+        hash.add(rods.id[i], rods.centre[i], rods.axis[i], rods.length[i], rods.diameter[i]);
+        for (const std::int32_t crossed : rods.image[i]) hash.add(crossed);
+        if (!rods.speed.empty()) hash.add(rods.speed[i]);
+        if (rods.cycle.empty()) continue;
+        const CellCycle& cycle = rods.cycle[i];
+        hash.add(cycle.growth_rate, cycle.division_at, cycle.birth_step, cycle.divisions, cycle.share);
+    }
+    for (const Spring& spring : simulation.springs()) {
+        hash.add(spring.rod_1, spring.rod_2, spring.s_1, spring.s_2);
+        for (const std::int32_t crossed : spring.image) hash.add(crossed);
+    }
+    return hash.value();
+}
+
+/// Adds the numbers that a step reports, and the forces of its contacts.
+inline void add_results(Hash& hash, const StepReport& report, const Simulation& simulation) {
+    hash.add(report.collision_virial, report.spring_virial, report.max_overlap, report.residual, report.iterations,
+             report.contacts, report.active_contacts);
+    for (const double gamma : simulation.contact_solution().gamma) hash.add(gamma);
+}
+
+}  // namespace jostle
