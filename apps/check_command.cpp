@@ -9,6 +9,7 @@
 
 #include "jostle/io/rods_of_scene.hpp"
 #include "jostle/io/scene_reader.hpp"
+#include "jostle/io/scene_settings.hpp"
 #include "jostle/io/scene_writer.hpp"
 #include "jostle/io/springs_file.hpp"
 #include "jostle/io/units.hpp"
@@ -263,7 +264,10 @@ ExitCode check(const Scene& scene, const std::string& scene_path) {
 
 }  // namespace
 
-ExitCode check_command(const std::string& scene_path) {
-    const Scene scene = read_scene(scene_path);
-    return in_scene_file(scene_path, [&] { return check(scene, scene_path); });
+ExitCode check_command(const std::string& scene_path, const std::vector<std::string>& set) {
+    const std::vector<Setting> settings = parse_settings(set);
+    return in_settings(scene_path, settings, [&] {
+        const Scene scene = parse_scene(with_settings(read_scene_text(scene_path), scene_path, settings), scene_path);
+        return in_scene_file(scene_path, [&] { return check(scene, scene_path); });
+    });
 }

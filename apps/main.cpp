@@ -46,6 +46,15 @@ constexpr const char* footer =
     "Exit status: 0 done, 1 internal error, 2 bad input, 3 contacts not resolved or overlap above the limit,\n"
     "4 disk, 75 stopped early (run the same command again to go on).";
 
+void add_settings(CLI::App& command, std::vector<std::string>& settings) {
+    command
+        .add_option(
+            "--set", settings,
+            "KEY=VALUE in the place of what the scene says, as --set box.volume_fraction=0.3; as often as you like")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+}
+
 CLI::App* add_stress_command(CLI::App& app, StressOptions& options) {
     CLI::App* stress = app.add_subcommand("stress", "Stress of contacts that another program found");
     stress->add_option("contacts", options.contacts, "contacts: CSV or HDF5 (docs/guide/stress_formula.md)")
@@ -92,6 +101,7 @@ ExitCode obey(int argc, char** argv) {
     std::string wall_time;
     CLI::App* run = app.add_subcommand("run", "Run a scene, or go on with a run of it that was stopped");
     run->add_option("scene", options.scene, "scene file (TOML)")->required();
+    add_settings(*run, options.settings);
     run->add_option("--out", options.folder, "folder for the results; default: SCENE's name with .run");
     run->add_option("--threads", options.threads,
                     "number of threads, on which the result does not depend; default: one for every 2000 rods, at most "
@@ -108,6 +118,7 @@ ExitCode obey(int argc, char** argv) {
     std::string scene;
     CLI::App* check = app.add_subcommand("check", "Validate a scene and print what follows from it; runs nothing");
     check->add_option("scene", scene, "scene file (TOML)")->required();
+    add_settings(*check, options.settings);
 
     bool keys_as_json = false;
     CLI::App* keys = app.add_subcommand("keys", "List the keys of a scene, with what each admits");
@@ -164,7 +175,7 @@ ExitCode obey(int argc, char** argv) {
     }
     options.wall_time = seconds_of(wall_time);
     if (run->parsed()) return run_command(options);
-    if (check->parsed()) return check_command(scene);
+    if (check->parsed()) return check_command(scene, options.settings);
     if (keys->parsed()) return keys_command(keys_as_json);
     if (stress->parsed()) return stress_command(stress_options);
     if (verify->parsed()) return verify_command(folder);

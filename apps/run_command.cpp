@@ -7,6 +7,7 @@
 #include "jostle/io/durable_file.hpp"
 #include "jostle/io/rods_of_scene.hpp"
 #include "jostle/io/scene_reader.hpp"
+#include "jostle/io/scene_settings.hpp"
 #include "jostle/io/scene_writer.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/simulation/assemble.hpp"
@@ -21,8 +22,8 @@ namespace {
 /// From so many rods on it takes seconds, or minutes, to place them at random.
 constexpr std::uint64_t many_to_place = 5000;
 
-RunScene read_run_scene(const std::string& path) {
-    RunScene scene{path, read_scene_text(path), {}, {}};
+RunScene read_run_scene(const std::string& path, const std::vector<Setting>& settings) {
+    RunScene scene{path, with_settings(read_scene_text(path), path, settings), {}, {}};
     scene.scene = parse_scene(scene.text, path);
     scene.resolved = to_toml(scene.scene);
     return scene;
@@ -95,12 +96,10 @@ ExitCode resume_run(const RunOptions& options, const RunScene& scene, const RunD
     return Run(options, scene, simulation, files, directory, sums).go();
 }
 
-}  // namespace
-
-ExitCode run_command(const RunOptions& options) {
-    if (options.threads) parallel::set_thread_count(*options.threads, "--threads");
-    parallel::thread_count();  // looks at OMP_NUM_THREADS before anything is written
-    const RunScene scene = read_run_scene(options.scene);
+ExitCode start_or_resume(const RunOptions& options, const std::vector<Setting>& settings) {
+    const RunScene scene = read_run_scene(options.scene, settings);
+    if (has_sweep(scene.text) && !options.quiet && !options.json)
+        std::fputs("jostle: one run of the scene; what its [sweep] asks for is run by `jostle sweep`\n", stderr);
     const std::string folder = folder_for(options);
     if (!options.fresh && is_run_directory(folder)) {
         const RunDirectory directory(folder);
@@ -110,8 +109,17 @@ ExitCode run_command(const RunOptions& options) {
             throw refused_file(folder, "this run has results but no checkpoint to go on from",
                                "Start anew with --fresh: the old run is then moved aside, not deleted");
     }
+    return start_run(options, scene, folder);
+}
+
+}  // namespace
+
+ExitCode run_command(const RunOptions& options) {
+    if (options.threads) parallel::set_thread_count(*options.threads, "--threads");
+    parallel::thread_count();  // looks at OMP_NUM_THREADS before anything is written
+    const std::vector<Setting> settings = parse_settings(options.settings);
     try {
-        return start_run(options, scene, folder);
+        return in_settings(options.scene, settings, [&] { return start_or_resume(options, settings); });
     } catch (const StartOutOfTime& late) {
         std::fprintf(stderr, "jostle: %s\n", late.what());
         return ExitCode::bad_input;  // the same again would come no farther

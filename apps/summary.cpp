@@ -1,5 +1,7 @@
 #include "summary.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +15,7 @@
 #include "stress_columns.hpp"
 #include "stress_ratio_checks.hpp"
 #include "summary_entries.hpp"
+#include "version.hpp"
 
 using namespace jostle;
 using Json = nlohmann::ordered_json;
@@ -86,6 +89,23 @@ bool all_alike(const Rods& rods) {
     return same(rods.length) && same(rods.diameter);
 }
 
+double mean_aspect_ratio(const Rods& rods) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < rods.size(); ++i) sum += rods.length[i] / rods.diameter[i];
+    return sum / static_cast<double>(rods.size());
+}
+
+/// 0.3, where the volumes of rods and box give 0.3000000000000014.
+double without_rounding(double value) {
+    return std::stod(fmt::format("{:.12g}", value));
+}
+
+Json box_entry(const Scene& scene, const Box& box) {
+    return {{"edges", {box.edges.x, box.edges.y, box.edges.z}},
+            {"periodic", scene.box.periodic},
+            {"unit", unit_of(scene, dimension::length)}};
+}
+
 }  // namespace
 
 Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTable& series, double run_max_overlap) {
@@ -102,8 +122,15 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     const Columns order = window_columns(series, first, order_tensor_column_names);
 
     Json summary;
-    summary["volume_fraction"] = total_volume(rods) / simulation.box().volume();
+    summary["title"] = scene.title;
+    summary["L_over_D"] = mean_aspect_ratio(rods);
+    summary["volume_fraction"] = without_rounding(total_volume(rods) / simulation.box().volume());
     summary["rods"] = rods.size();
+    summary["seed"] = simulation.settings().seed;
+    summary["self_propulsion"] = {{"mean", scene.motion.self_propulsion}, {"unit", unit_of(scene, dimension::speed)}};
+    summary["box"] = box_entry(scene, simulation.box());
+    summary["version"] = jostle_version;
+    summary["git"] = jostle_commit;
     summary["steps"] = simulation.clock().step;
     summary["time"] = simulation.clock().time;
     summary["time_step"] = simulation.settings().time_step;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "jostle/io/key_reader.hpp"
 #include "jostle/io/nearest_word.hpp"
 #include "jostle/io/toml_document.hpp"
+#include "jostle/io/unknown_keys.hpp"
 #include "jostle/simulation/scene_keys.hpp"
 #include "jostle/simulation/unused_keys.hpp"
 #include "jostle/simulation/validate_scene.hpp"
@@ -19,54 +19,6 @@
 namespace jostle {
 
 namespace {
-
-using KeysOfTables = std::map<std::string, std::vector<std::string>, std::less<>>;
-
-KeysOfTables keys_of_tables() {
-    KeysOfTables keys;
-    const Scene scene;
-    for_each_key(scene, [&](std::string_view table, std::string_view name, const auto&, const auto&) {
-        keys[std::string(table)].emplace_back(name);
-    });
-    return keys;
-}
-
-/// What to do about a key that no table, or another one, has.
-std::string suggestion_for(std::string_view name, const std::string& table, const KeysOfTables& known) {
-    for (const auto& [other, names] : known)
-        if (other != table && std::find(names.begin(), names.end(), name) != names.end())
-            return fmt::format("The key \"{}\" belongs {}", name,
-                               other.empty() ? "at the top, above all tables" : "to [" + other + "]");
-    std::vector<std::string> candidates = known.at(table);
-    if (table.empty())
-        for (const auto& [other, names] : known) candidates.push_back(other);
-    return did_you_mean(name, candidates);
-}
-
-void refuse_unknown(const TomlDocument& document, const toml::table& table, const std::string& table_name,
-                    const KeysOfTables& known) {
-    const std::vector<std::string>& names = known.at(table_name);
-    for (const auto& [key, value] : table) {
-        const std::string name(key.str());
-        const bool is_table = table_name.empty() && !name.empty() && known.contains(name);
-        if (is_table && !value.is_table())
-            throw InputError({name, document.written(value.source()),
-                              "is " + type_name(value) + ", and must be a table", "[" + name + "]",
-                              fmt::format("Write [{}] and below it the keys {}", name, quoted_list(known.at(name))),
-                              document.place(value.source())});
-        if (is_table) refuse_unknown(document, *value.as_table(), name, known);
-        if (is_table || std::find(names.begin(), names.end(), name) != names.end()) continue;
-        std::vector<std::string> allowed = names;
-        if (table_name.empty())
-            for (const auto& [other, other_names] : known)
-                if (!other.empty()) allowed.push_back("[" + other + "]");
-        const bool heading = value.is_table();
-        throw InputError({full_key(table_name, document.written(key.source())),
-                          heading ? "" : document.written(value.source()),
-                          heading ? "is an unknown table" : "is an unknown key", quoted_list(allowed),
-                          suggestion_for(name, table_name, known), document.place(key.source())});
-    }
-}
 
 void read_keys(const TomlDocument& document, Scene& scene) {
     for_each_key(scene, [&](std::string_view table, std::string_view name, auto& member, const auto& spec) {
@@ -112,27 +64,13 @@ void refuse_unused(const TomlDocument& document, const Scene& scene) {
     }
 }
 
-/// Table and name of a full key; a key at the top has the table "".
-std::pair<std::string, std::string> parts_of(const std::string& key) {
-    const std::size_t dot = key.find('.');
-    if (dot == std::string::npos) return {"", key};
-    return {key.substr(0, dot), key.substr(dot + 1)};
-}
-
 /// The error with the place of its key and its value as the user wrote it.
 InputError with_place(const TomlDocument& document, const InputError& error) {
     InputError::Parts parts = error.parts();
-    const auto [table, name] = parts_of(parts.key);
+    const auto [table, name] = parts_of_key(parts.key);
     if (const toml::node* node = document.find(table, name)) parts.value = document.written(node->source());
     parts.place = document.place_of(parts.key);
     return InputError(parts);
-}
-
-bool is_key(const std::string& key) {
-    const KeysOfTables known = keys_of_tables();
-    const auto [table, name] = parts_of(key);
-    const auto found = known.find(table);
-    return found != known.end() && std::find(found->second.begin(), found->second.end(), name) != found->second.end();
 }
 
 [[noreturn]] void refuse_file(const std::filesystem::path& path, std::string problem, std::string suggestion) {
@@ -180,7 +118,7 @@ std::string read_scene_text(const std::filesystem::path& path) {
 }
 
 InputError in_scene_file(const std::filesystem::path& path, const InputError& error) {
-    if (!is_key(error.parts().key)) return error.with_place({path.string()});
+    if (!is_scene_key(error.parts().key)) return error.with_place({path.string()});
     try {
         return with_place(TomlDocument(read_scene_text(path), path.string()), error);
     } catch (const InputError&) {  // what was read is not there any more, as of a pipe
@@ -197,7 +135,7 @@ Scene parse_scene(std::string_view text, std::string file_name) {
                           "",
                           "Begin with the scene in the README",
                           {file_name, 1, 1}});
-    refuse_unknown(document, document.root(), "", keys_of_tables());
+    refuse_unknown_keys(document);
     Scene scene;
     read_keys(document, scene);
     refuse_missing(document, scene);
@@ -210,6 +148,10 @@ Scene parse_scene(std::string_view text, std::string file_name) {
     // A growing population has no equilibrium to wait for.
     if (scene.growth.rate > 0.0 && !scene.time.equilibration) scene.time.equilibration = 0.0;
     return scene;
+}
+
+bool has_sweep(std::string_view text) {
+    return TomlDocument(text, "").root().contains(sweep_table);
 }
 
 }  // namespace jostle

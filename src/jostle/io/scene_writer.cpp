@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "jostle/io/toml_document.hpp"
 #include "jostle/io/units.hpp"
 #include "jostle/simulation/scene_keys.hpp"
 #include "jostle/simulation/unused_keys.hpp"
@@ -39,16 +40,7 @@ std::string written(std::uint64_t value) {
 }
 
 std::string written(const std::string& value) {
-    std::string text = "\"";
-    for (const char c : value) {
-        if (c == '"' || c == '\\')
-            text += std::string("\\") + c;
-        else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-            text += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-        else
-            text += c;
-    }
-    return text + "\"";
+    return toml_text(value);
 }
 
 template <class Choice>

@@ -1,5 +1,7 @@
 #include "jostle/io/toml_document.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "jostle/error/one_line.hpp"
@@ -70,6 +72,19 @@ constexpr Wording wordings[] = {
 };
 
 }  // namespace
+
+std::string toml_text(std::string_view text) {
+    std::string quoted = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\')
+            quoted += std::string("\\") + c;
+        else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+            quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+        else
+            quoted += c;
+    }
+    return quoted + "\"";
+}
 
 TomlDocument::TomlDocument(std::string_view text, std::string file_name) : text_(text), file_(std::move(file_name)) {
     if (text_.starts_with("\xef\xbb\xbf")) text_.erase(0, 3);  // byte order mark
@@ -158,14 +173,54 @@ std::string TomlDocument::written(const toml::source_region& region) const {
     return entry_on_one_line(text);
 }
 
-std::string_view TomlDocument::line(std::uint32_t number) const {
-    std::size_t begin = 0;
+/// Beyond the text if it has no such line.
+std::size_t TomlDocument::begin_of_line(std::uint32_t number) const {
+    std::size_t begin = number == 0 ? std::string::npos : 0;
     for (std::uint32_t k = 1; k < number && begin != std::string::npos; ++k) {
         begin = text_.find('\n', begin);
         if (begin != std::string::npos) ++begin;
     }
-    if (number == 0 || begin == std::string::npos) return {};
+    return std::min(begin, text_.size());
+}
+
+std::string_view TomlDocument::line(std::uint32_t number) const {
+    const std::size_t begin = begin_of_line(number);
     return std::string_view(text_).substr(begin, text_.find('\n', begin) - begin);
+}
+
+std::size_t TomlDocument::offset(const toml::source_position& position) const {
+    return begin_of_line(position.line) + offset_of(line(position.line), position.column);
+}
+
+std::string TomlDocument::text_with(std::string_view table, std::string_view name, std::string_view value) const {
+    std::string text = text_;
+    const std::string entry = std::string(name) + " = " + std::string(value);
+    if (const toml::node* old = find(table, name)) {
+        const std::size_t begin = offset(old->source().begin);
+        return text.replace(begin, end_of(*old) - begin, value);
+    }
+    if (table.empty()) return entry + "\n" + text;
+    const bool ends = text.empty() || text.back() == '\n';
+    const toml::table* keys = root_.get_as<toml::table>(table);
+    if (!keys) return text + (ends ? "" : "\n") + "\n[" + std::string(table) + "]\n" + entry + "\n";
+    const std::uint32_t number = keys->source().begin.line;
+    if (keys->is_inline())
+        return text.insert(offset(keys->source().begin) + 1, " " + entry + (keys->empty() ? "" : ","));
+    if (!trimmed(line(number)).starts_with('['))  // of dotted keys, as box.volume_fraction = 0.2
+        return text.insert(begin_of_line(number), std::string(table) + "." + entry + "\n");
+    if (begin_of_line(number + 1) == text.size() && !ends) text += '\n';
+    return text.insert(begin_of_line(number + 1), entry + "\n");
+}
+
+std::string TomlDocument::text_without(std::string_view table, std::string_view name) const {
+    const toml::table* keys = table.empty() ? &root_ : root_.get_as<toml::table>(table);
+    const auto entry = keys ? keys->find(name) : toml::table::const_iterator{};
+    if (!keys || entry == keys->end() || keys->is_inline()) return text_;
+    const std::uint32_t number = entry->first.source().begin.line;
+    std::size_t begin = begin_of_line(number), end = end_of(entry->second);
+    if (trimmed(std::string_view(text_).substr(end, text_.find('\n', end) - end)).empty())
+        end = std::min(text_.find('\n', end), text_.size() - 1) + 1;  // the line with it
+    return std::string(text_).erase(begin, end - begin);
 }
 
 std::string TomlDocument::table_above(std::uint32_t line_number) const {

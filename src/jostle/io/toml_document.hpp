@@ -27,17 +27,32 @@ public:
     /// Where the value of "table.name" stands; if absent, where its table stands; else line 1.
     Place place_of(std::string_view full_key) const;
 
+    /// The text with this key set to a value in TOML: in the place of the value that it has, else as a line below the
+    /// heading of its table, which is added where it is missing.
+    std::string text_with(std::string_view table, std::string_view name, std::string_view value) const;
+
+    /// The text without this key and its value; a comment beside it stays.
+    std::string text_without(std::string_view table, std::string_view name) const;
+
+    /// Offset in the text of what follows a value.
+    std::size_t end_of(const toml::node& value) const { return offset(value.source().end); }
+
     /// A region of the source as the user wrote it, on one line and not longer than a message can hold.
     std::string written(const toml::source_region& region) const;
 
 private:
     [[noreturn]] void refuse(const toml::parse_error& error) const;
+    std::size_t begin_of_line(std::uint32_t number) const;
     std::string_view line(std::uint32_t number) const;
+    std::size_t offset(const toml::source_position& position) const;
     std::string table_above(std::uint32_t line_number) const;
 
     std::string text_;
     std::string file_;
     toml::table root_;
 };
+
+/// A text as a value of TOML, in quotes.
+std::string toml_text(std::string_view text);
 
 }  // namespace jostle

@@ -192,6 +192,13 @@ constexpr std::string_view word_of(Choice choice) {
     return "";
 }
 
+/// Table and name of a full key; a key at the top has the table "".
+inline std::pair<std::string_view, std::string_view> parts_of_key(std::string_view key) {
+    const std::size_t dot = key.find('.');
+    if (dot == std::string_view::npos) return {"", key};
+    return {key.substr(0, dot), key.substr(dot + 1)};
+}
+
 /// "table.name", or the name alone at the top.
 inline std::string full_key(std::string_view table, std::string_view name) {
     return table.empty() ? std::string(name) : std::string(table) + "." + std::string(name);
