@@ -7,19 +7,19 @@
 #include <cstdio>
 #include <numbers>
 
-#include "jostle/io/rods_of_scene.hpp"
-#include "jostle/io/scene_reader.hpp"
-#include "jostle/io/scene_settings.hpp"
-#include "jostle/io/scene_writer.hpp"
-#include "jostle/io/springs_file.hpp"
-#include "jostle/io/units.hpp"
-#include "jostle/simulation/assemble.hpp"
-#include "jostle/simulation/free_clocks.hpp"
-#include "jostle/simulation/rod_size.hpp"
-#include "jostle/simulation/scene_box.hpp"
-#include "jostle/simulation/scene_motion.hpp"
-#include "jostle/simulation/start.hpp"
-#include "jostle/simulation/step_limits.hpp"
+#include "jostle/scene/rod_size.hpp"
+#include "jostle/scene/scene_box.hpp"
+#include "jostle/scene/scene_motion.hpp"
+#include "jostle/scene/step_limits.hpp"
+#include "jostle/scene/units.hpp"
+#include "jostle/scene_file/rods_of_scene.hpp"
+#include "jostle/scene_file/scene_reader.hpp"
+#include "jostle/scene_file/scene_settings.hpp"
+#include "jostle/scene_file/scene_writer.hpp"
+#include "jostle/scene_file/springs_file.hpp"
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/free_clocks.hpp"
+#include "jostle/setup/start.hpp"
 
 using namespace jostle;
 

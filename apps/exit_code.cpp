@@ -4,8 +4,8 @@
 #include <exception>
 #include <new>
 
+#include "jostle/disk/durable_file.hpp"
 #include "jostle/error/input_error.hpp"
-#include "jostle/io/durable_file.hpp"
 #include "standard_streams.hpp"
 
 int exit_status(const std::function<ExitCode()>& command) {

@@ -10,10 +10,10 @@
 #include <random>
 #include <string_view>
 
-#include "jostle/io/checkpoint.hpp"
-#include "jostle/io/durable_file.hpp"
-#include "jostle/io/h5md_writer.hpp"
-#include "jostle/io/trajectory_journal.hpp"
+#include "jostle/disk/durable_file.hpp"
+#include "jostle/run_files/checkpoint.hpp"
+#include "jostle/run_files/h5md_writer.hpp"
+#include "jostle/run_files/trajectory_journal.hpp"
 
 using namespace jostle;
 namespace fs = std::filesystem;

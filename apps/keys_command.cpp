@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
-#include "jostle/io/units.hpp"
-#include "jostle/simulation/scene_keys.hpp"
+#include "jostle/scene/scene_keys.hpp"
+#include "jostle/scene/units.hpp"
 
 using namespace jostle;
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "jostle/io/durable_file.hpp"
-#include "jostle/simulation/scene_box.hpp"
+#include "jostle/disk/durable_file.hpp"
+#include "jostle/scene/scene_box.hpp"
 
 using namespace jostle;
 using Json = nlohmann::ordered_json;

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "jostle/simulation/scene.hpp"
+#include "jostle/scene/scene.hpp"
 #include "jostle/simulation/simulation.hpp"
 
 /// What the user can do about a failed step, one or two lines.

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "jostle/io/durable_file.hpp"
+#include "jostle/disk/durable_file.hpp"
 
 using namespace jostle;
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "jostle/io/series_columns.hpp"
+#include "jostle/measurement/series_columns.hpp"
 #include "jostle/statistics/equilibration.hpp"
 #include "summary_entries.hpp"
 

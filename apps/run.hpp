@@ -4,8 +4,8 @@
 #include <string>
 
 #include "exit_code.hpp"
-#include "jostle/io/run_directory.hpp"
-#include "jostle/io/step_sums.hpp"
+#include "jostle/measurement/step_sums.hpp"
+#include "jostle/run_files/run_directory.hpp"
 #include "jostle/simulation/simulation.hpp"
 #include "progress_line.hpp"
 #include "run_files.hpp"

@@ -4,13 +4,13 @@
 #include <filesystem>
 #include <fstream>
 
-#include "jostle/io/durable_file.hpp"
-#include "jostle/io/rods_of_scene.hpp"
-#include "jostle/io/scene_reader.hpp"
-#include "jostle/io/scene_settings.hpp"
-#include "jostle/io/scene_writer.hpp"
+#include "jostle/disk/durable_file.hpp"
 #include "jostle/parallel/parallel_for.hpp"
-#include "jostle/simulation/assemble.hpp"
+#include "jostle/scene_file/rods_of_scene.hpp"
+#include "jostle/scene_file/scene_reader.hpp"
+#include "jostle/scene_file/scene_settings.hpp"
+#include "jostle/scene_file/scene_writer.hpp"
+#include "jostle/setup/assemble.hpp"
 #include "run.hpp"
 #include "start_entry.hpp"
 #include "start_watch.hpp"

@@ -4,10 +4,10 @@
 #include <limits>
 #include <utility>
 
-#include "jostle/io/durable_file.hpp"
-#include "jostle/io/series_columns.hpp"
-#include "jostle/io/units.hpp"
+#include "jostle/disk/durable_file.hpp"
+#include "jostle/measurement/series_columns.hpp"
 #include "jostle/rods/space_filling_order.hpp"
+#include "jostle/scene/units.hpp"
 #include "jostle/simulation/contact_by_id.hpp"
 #include "jostle/stress/stress_per_rod.hpp"
 

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "jostle/io/checkpoint.hpp"
-#include "jostle/io/run_directory.hpp"
-#include "jostle/io/series_file.hpp"
-#include "jostle/io/step_sums.hpp"
-#include "jostle/io/trajectory_journal.hpp"
-#include "jostle/simulation/scene.hpp"
+#include "jostle/measurement/step_sums.hpp"
+#include "jostle/run_files/checkpoint.hpp"
+#include "jostle/run_files/run_directory.hpp"
+#include "jostle/run_files/series_file.hpp"
+#include "jostle/run_files/trajectory_journal.hpp"
+#include "jostle/scene/scene.hpp"
 #include "jostle/simulation/simulation.hpp"
 
 /// A table that a run of a scene writes, NAME.csv, and what its columns are, which stands in NAME.json.

@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-#include "jostle/io/series_file.hpp"
-#include "jostle/simulation/scene.hpp"
+#include "jostle/run_files/series_file.hpp"
+#include "jostle/scene/scene.hpp"
 #include "jostle/statistics/equilibrium_check.hpp"
 
 /// Decides, from the series alone, when a run has all that it was asked for.

@@ -7,7 +7,7 @@
 #include <ctime>
 #include <fstream>
 
-#include "jostle/io/durable_file.hpp"
+#include "jostle/disk/durable_file.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "parsed_json.hpp"
 #include "version.hpp"

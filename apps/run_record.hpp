@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "jostle/io/run_directory.hpp"
+#include "jostle/run_files/run_directory.hpp"
 #include "jostle/simulation/simulation.hpp"
 #include "run_options.hpp"
 

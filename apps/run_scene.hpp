@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "jostle/simulation/scene.hpp"
+#include "jostle/scene/scene.hpp"
 
 /// The scene of a run, in the three forms in which its files hold it.
 struct RunScene {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "jostle/simulation/scene_keys.hpp"
-#include "jostle/simulation/start.hpp"
+#include "jostle/scene/scene_keys.hpp"
+#include "jostle/setup/start.hpp"
 
 using namespace jostle;
 using Json = nlohmann::ordered_json;

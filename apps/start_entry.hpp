@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "jostle/io/rods_of_scene.hpp"
+#include "jostle/scene_file/rods_of_scene.hpp"
 
 /// What run.json says of a start: its kind, how it was annealed, and "in_words" for people.
 nlohmann::ordered_json start_entry(const jostle::Scene& scene, const jostle::Beginning& beginning);

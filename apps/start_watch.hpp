@@ -3,7 +3,7 @@
 #include <chrono>
 #include <stdexcept>
 
-#include "jostle/simulation/anneal.hpp"
+#include "jostle/setup/anneal.hpp"
 #include "run_options.hpp"
 
 /// The wall time is over before the start is made.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "jostle/io/series_columns.hpp"
+#include "jostle/measurement/series_columns.hpp"
 
 using namespace jostle;
 

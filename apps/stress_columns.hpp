@@ -1,7 +1,7 @@
 #pragma once
 
-#include "jostle/io/series_file.hpp"
 #include "jostle/math/mat3.hpp"
+#include "jostle/run_files/series_file.hpp"
 #include "summary_entries.hpp"
 
 /// A stress tensor of nine means, by rows.

@@ -10,13 +10,13 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "jostle/disk/output_file.hpp"
 #include "jostle/error/input_error.hpp"
-#include "jostle/io/contact_table.hpp"
-#include "jostle/io/nearest_word.hpp"
-#include "jostle/io/output_file.hpp"
-#include "jostle/simulation/scene_keys.hpp"
+#include "jostle/error/nearest_word.hpp"
+#include "jostle/scene/scene_keys.hpp"
 #include "jostle/stress/contact_stress.hpp"
 #include "jostle/stress/stress.hpp"
+#include "jostle/tables/contact_table.hpp"
 
 using namespace jostle;
 

@@ -8,7 +8,7 @@
 
 /// What stands on the command line of `jostle stress`.
 struct StressOptions {
-    std::string contacts, bodies;  ///< tables (src/jostle/io/contact_table.hpp, body_table.hpp)
+    std::string contacts, bodies;  ///< tables (src/jostle/tables/contact_table.hpp, body_table.hpp)
     std::optional<double> volume;
     std::vector<double> box;       ///< edges along x, y, z; empty: not given
     std::string periodic = "xyz";  ///< directions along which the box is periodic; "none"

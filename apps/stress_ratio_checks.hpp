@@ -2,9 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "jostle/io/series_file.hpp"
 #include "jostle/math/mat3.hpp"
 #include "jostle/rods/rods.hpp"
+#include "jostle/run_files/series_file.hpp"
 #include "summary_entries.hpp"
 
 struct MeanDirector {

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "jostle/io/series_columns.hpp"
-#include "jostle/io/units.hpp"
 #include "jostle/math/symmetric_eigen.hpp"
-#include "jostle/simulation/free_clocks.hpp"
-#include "jostle/simulation/rod_size.hpp"
+#include "jostle/measurement/series_columns.hpp"
+#include "jostle/scene/rod_size.hpp"
+#include "jostle/scene/units.hpp"
+#include "jostle/setup/free_clocks.hpp"
 #include "jostle/stress/stress.hpp"
 #include "production_window.hpp"
 #include "stress_columns.hpp"

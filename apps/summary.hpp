@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "jostle/io/series_file.hpp"
-#include "jostle/simulation/scene.hpp"
+#include "jostle/run_files/series_file.hpp"
+#include "jostle/scene/scene.hpp"
 #include "jostle/simulation/simulation.hpp"
 
 /// summary.json: averages over the window with error bars, and checks of the stress against what equilibrium has.

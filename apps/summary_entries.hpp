@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "jostle/io/series_file.hpp"
+#include "jostle/run_files/series_file.hpp"
 #include "jostle/statistics/equilibrium_check.hpp"
 #include "jostle/statistics/jackknife.hpp"
 #include "jostle/statistics/time_series.hpp"

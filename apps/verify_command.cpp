@@ -4,11 +4,11 @@
 #include <optional>
 #include <string_view>
 
-#include "jostle/io/checkpoint.hpp"
-#include "jostle/io/h5md_writer.hpp"
-#include "jostle/io/run_directory.hpp"
-#include "jostle/io/series_file.hpp"
-#include "jostle/io/trajectory_journal.hpp"
+#include "jostle/run_files/checkpoint.hpp"
+#include "jostle/run_files/h5md_writer.hpp"
+#include "jostle/run_files/run_directory.hpp"
+#include "jostle/run_files/series_file.hpp"
+#include "jostle/run_files/trajectory_journal.hpp"
 #include "verify_texts.hpp"
 
 using namespace jostle;

@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <initializer_list>
 
-#include "jostle/io/durable_file.hpp"
-#include "jostle/io/scene_reader.hpp"
-#include "jostle/io/scene_writer.hpp"
+#include "jostle/disk/durable_file.hpp"
+#include "jostle/scene_file/scene_reader.hpp"
+#include "jostle/scene_file/scene_writer.hpp"
 #include "parsed_json.hpp"
 #include "run_files.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "jostle/io/checkpoint.hpp"
+#include "jostle/run_files/checkpoint.hpp"
 
 /// Looks at the files of a run that are written anew whenever it goes on, and have no checksum: scene.toml and
 /// resolved.toml against the checkpoint, descriptions of columns against what this version writes, run.json,

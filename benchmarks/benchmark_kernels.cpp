@@ -7,11 +7,11 @@
 
 #include "jostle/contact/find_contacts.hpp"
 #include "jostle/contact/segment_distance.hpp"
+#include "jostle/contact_problem/sweeper.hpp"
+#include "jostle/contact_problem/time_step_correction.hpp"
 #include "jostle/math/random.hpp"
 #include "jostle/motion/brownian_motion.hpp"
 #include "jostle/parallel/parallel_for.hpp"
-#include "jostle/simulation/sweeper.hpp"
-#include "jostle/simulation/time_step_correction.hpp"
 #include "settled.hpp"
 
 using namespace jostle;

@@ -7,8 +7,8 @@
 #include <map>
 #include <stdexcept>
 
-#include "jostle/simulation/assemble.hpp"
-#include "jostle/simulation/start.hpp"
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/start.hpp"
 
 using namespace jostle;
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "jostle/simulation/scene.hpp"
+#include "jostle/scene/scene.hpp"
 #include "jostle/simulation/simulation.hpp"
 
 /// A state to measure: bodies of diameter 1 in a cubic periodic box.

@@ -1,8 +1,8 @@
 #include <string_view>
 
 #include "bindings/bindings.hpp"
+#include "jostle/disk/durable_file.hpp"
 #include "jostle/error/input_error.hpp"
-#include "jostle/io/durable_file.hpp"
 
 namespace jostle::python {
 

@@ -5,10 +5,10 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "bindings/bindings.hpp"
-#include "jostle/io/key_reader.hpp"
-#include "jostle/io/scene_reader.hpp"
-#include "jostle/io/scene_writer.hpp"
-#include "jostle/simulation/validate_scene.hpp"
+#include "jostle/scene/validate_scene.hpp"
+#include "jostle/scene_file/key_reader.hpp"
+#include "jostle/scene_file/scene_reader.hpp"
+#include "jostle/scene_file/scene_writer.hpp"
 
 namespace jostle::python {
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "jostle/simulation/scene.hpp"
+#include "jostle/scene/scene.hpp"
 
 namespace jostle::python {
 

@@ -5,14 +5,14 @@
 #include "bindings/bindings.hpp"
 #include "bindings/python_motion.hpp"
 #include "jostle/error/input_error.hpp"
-#include "jostle/io/rods_of_scene.hpp"
-#include "jostle/io/scene_reader.hpp"
-#include "jostle/io/scene_writer.hpp"
-#include "jostle/io/series_columns.hpp"
-#include "jostle/simulation/assemble.hpp"
+#include "jostle/measurement/series_columns.hpp"
+#include "jostle/scene/validate_scene.hpp"
+#include "jostle/scene_file/rods_of_scene.hpp"
+#include "jostle/scene_file/scene_reader.hpp"
+#include "jostle/scene_file/scene_writer.hpp"
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/step_failure.hpp"
 #include "jostle/simulation/contact_by_id.hpp"
-#include "jostle/simulation/step_failure.hpp"
-#include "jostle/simulation/validate_scene.hpp"
 
 namespace jostle::python {
 

@@ -4,8 +4,8 @@
 
 #include "bindings/rods_in_order.hpp"
 #include "bindings/scene.hpp"
-#include "jostle/io/checkpoint.hpp"
-#include "jostle/io/step_sums.hpp"
+#include "jostle/measurement/step_sums.hpp"
+#include "jostle/run_files/checkpoint.hpp"
 #include "jostle/simulation/simulation.hpp"
 
 namespace jostle::python {

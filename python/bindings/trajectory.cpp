@@ -1,6 +1,6 @@
 #include "bindings/arrays.hpp"
 #include "bindings/bindings.hpp"
-#include "jostle/io/trajectory_journal.hpp"
+#include "jostle/run_files/trajectory_journal.hpp"
 
 namespace jostle::python {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "jostle/io/checksum.hpp"
+#include "jostle/disk/checksum.hpp"
 #include "jostle/simulation/simulation.hpp"
 
 namespace jostle {

@@ -14,8 +14,8 @@
 #include <sstream>
 
 #include "golden_hash.hpp"
-#include "jostle/io/rods_of_scene.hpp"
-#include "jostle/simulation/assemble.hpp"
+#include "jostle/scene_file/rods_of_scene.hpp"
+#include "jostle/setup/assemble.hpp"
 
 using namespace jostle;
 

@@ -1,8 +1,8 @@
 #include <cstdio>
 
-#include "jostle/io/rods_of_scene.hpp"
-#include "jostle/io/scene_reader.hpp"
-#include "jostle/simulation/assemble.hpp"
+#include "jostle/scene_file/rods_of_scene.hpp"
+#include "jostle/scene_file/scene_reader.hpp"
+#include "jostle/setup/assemble.hpp"
 #include "jostle/stress/rigid_body_stress.hpp"
 #include "jostle/stress/shape_moments.hpp"
 

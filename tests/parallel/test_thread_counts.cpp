@@ -12,11 +12,11 @@
 
 #include "jostle/math/random.hpp"
 #include "jostle/parallel/parallel_for.hpp"
-#include "jostle/simulation/assemble.hpp"
-#include "jostle/simulation/monte_carlo.hpp"
-#include "jostle/simulation/push_apart.hpp"
-#include "jostle/simulation/scattered_rods.hpp"
-#include "jostle/simulation/start.hpp"
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/monte_carlo.hpp"
+#include "jostle/setup/push_apart.hpp"
+#include "jostle/setup/scattered_rods.hpp"
+#include "jostle/setup/start.hpp"
 
 using namespace jostle;
 

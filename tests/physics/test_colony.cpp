@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "jostle/simulation/assemble.hpp"
-#include "jostle/simulation/largest_overlap.hpp"
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/largest_overlap.hpp"
 
 using namespace jostle;
 

@@ -8,9 +8,9 @@
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/motion/brownian_motion.hpp"
-#include "jostle/simulation/assemble.hpp"
-#include "jostle/simulation/scene_box.hpp"
-#include "jostle/simulation/start.hpp"
+#include "jostle/scene/scene_box.hpp"
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/start.hpp"
 #include "jostle/statistics/time_series.hpp"
 
 using namespace jostle;

@@ -10,9 +10,9 @@
 
 #include "jostle/motion/self_propulsion.hpp"
 #include "jostle/parallel/parallel_for.hpp"
-#include "jostle/simulation/assemble.hpp"
-#include "jostle/simulation/scene_box.hpp"
-#include "jostle/simulation/start.hpp"
+#include "jostle/scene/scene_box.hpp"
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/start.hpp"
 #include "jostle/statistics/time_series.hpp"
 #include "jostle/stress/active_stress.hpp"
 

@@ -6,10 +6,10 @@
 
 #include <cmath>
 
-#include "jostle/simulation/assemble.hpp"
-#include "jostle/simulation/rod_size.hpp"
-#include "jostle/simulation/scene_box.hpp"
-#include "jostle/simulation/start.hpp"
+#include "jostle/scene/rod_size.hpp"
+#include "jostle/scene/scene_box.hpp"
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/start.hpp"
 #include "jostle/statistics/time_series.hpp"
 
 using namespace jostle;

@@ -11,8 +11,8 @@
 #include <string>
 
 #include "jostle/math/symmetric_eigen.hpp"
-#include "jostle/simulation/assemble.hpp"
-#include "jostle/simulation/start.hpp"
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/start.hpp"
 #include "jostle/statistics/jackknife.hpp"
 #include "jostle/statistics/order_parameter.hpp"
 #include "jostle/stress/spherocylinder_moments.hpp"

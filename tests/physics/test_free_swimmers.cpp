@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "jostle/parallel/parallel_for.hpp"
-#include "jostle/simulation/assemble.hpp"
-#include "jostle/simulation/scene_box.hpp"
-#include "jostle/simulation/scene_motion.hpp"
-#include "jostle/simulation/start.hpp"
+#include "jostle/scene/scene_box.hpp"
+#include "jostle/scene/scene_motion.hpp"
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/start.hpp"
 #include "jostle/stress/active_stress.hpp"
 
 using namespace jostle;

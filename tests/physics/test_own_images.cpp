@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "jostle/simulation/assemble.hpp"
+#include "jostle/setup/assemble.hpp"
 
 using namespace jostle;
 

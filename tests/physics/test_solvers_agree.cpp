@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
-#include "jostle/simulation/assemble.hpp"
-#include "jostle/simulation/start.hpp"
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/start.hpp"
 
 using namespace jostle;
 

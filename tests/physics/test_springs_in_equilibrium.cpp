@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "jostle/simulation/assemble.hpp"
+#include "jostle/setup/assemble.hpp"
 
 using namespace jostle;
 

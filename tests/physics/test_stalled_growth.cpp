@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "jostle/simulation/assemble.hpp"
-#include "jostle/simulation/scene_box.hpp"
-#include "jostle/simulation/start.hpp"
+#include "jostle/scene/scene_box.hpp"
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/start.hpp"
 
 using namespace jostle;
 

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "jostle/simulation/assemble.hpp"
-#include "jostle/simulation/start.hpp"
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/start.hpp"
 #include "jostle/statistics/jackknife.hpp"
 #include "jostle/statistics/order_parameter.hpp"
 #include "jostle/stress/orientation_stress.hpp"

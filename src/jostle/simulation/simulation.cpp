@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "jostle/contact/wca_forces.hpp"
+#include "jostle/contact_problem/time_step_correction.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/rods/space_filling_order.hpp"
-#include "jostle/simulation/time_step_correction.hpp"
 
 namespace jostle {
 

@@ -7,24 +7,19 @@
 #include <vector>
 
 #include "jostle/contact/collision_search.hpp"
+#include "jostle/contact_problem/contact_solver.hpp"
+#include "jostle/contact_problem/warm_start.hpp"
 #include "jostle/growth/growth.hpp"
 #include "jostle/mobility/mobility.hpp"
 #include "jostle/motion/motion.hpp"
 #include "jostle/motion/springs.hpp"
 #include "jostle/parallel/thread_choice.hpp"
 #include "jostle/rods/box.hpp"
-#include "jostle/simulation/contact_solver.hpp"
+#include "jostle/rods/clock.hpp"
 #include "jostle/simulation/step_report.hpp"
-#include "jostle/simulation/warm_start.hpp"
 #include "jostle/stress/collision_moments.hpp"
 
 namespace jostle {
-
-/// Where the simulation stands: with the rods, all that the next step depends on.
-struct Clock {
-    std::uint64_t step = 0;
-    double time = 0.0;
-};
 
 struct SimulationSettings {
     std::uint64_t seed = 1;

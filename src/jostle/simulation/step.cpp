@@ -6,11 +6,11 @@
 
 #include "jostle/contact/pushed_overlaps.hpp"
 #include "jostle/contact/wca_forces.hpp"
+#include "jostle/contact_problem/delassus_operator.hpp"
+#include "jostle/contact_problem/time_step_correction.hpp"
 #include "jostle/math/rotation.hpp"
 #include "jostle/parallel/parallel_for.hpp"
-#include "jostle/simulation/delassus_operator.hpp"
 #include "jostle/simulation/simulation.hpp"
-#include "jostle/simulation/time_step_correction.hpp"
 #include "jostle/stress/collision_stress.hpp"
 #include "jostle/stress/spring_stress.hpp"
 

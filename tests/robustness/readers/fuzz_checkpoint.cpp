@@ -1,7 +1,7 @@
 // Checkpoints whose checksum is right: what a flipped bit cannot make, but a forger can.
 #include <xxhash.h>
 
-#include "jostle/io/checkpoint.hpp"
+#include "jostle/run_files/checkpoint.hpp"
 #include "reader_target.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {

@@ -1,9 +1,9 @@
 // CSV files: rods and springs of a scene, contacts and bodies of other programs, a series. The first byte says which.
-#include "jostle/io/body_table.hpp"
-#include "jostle/io/contact_table.hpp"
-#include "jostle/io/rods_file.hpp"
-#include "jostle/io/series_file.hpp"
-#include "jostle/io/springs_file.hpp"
+#include "jostle/run_files/series_file.hpp"
+#include "jostle/scene_file/rods_file.hpp"
+#include "jostle/scene_file/springs_file.hpp"
+#include "jostle/tables/body_table.hpp"
+#include "jostle/tables/contact_table.hpp"
 #include "reader_target.hpp"
 
 namespace {

@@ -1,6 +1,6 @@
 // Tables of other programs in HDF5. The HDF5 library itself is Debian's and not instrumented: its crashes are found,
 // its branches are not seen.
-#include "jostle/io/body_table.hpp"
+#include "jostle/tables/body_table.hpp"
 #include "reader_target.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {

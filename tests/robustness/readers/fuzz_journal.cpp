@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "jostle/io/trajectory_journal.hpp"
+#include "jostle/run_files/trajectory_journal.hpp"
 #include "reader_target.hpp"
 
 namespace {

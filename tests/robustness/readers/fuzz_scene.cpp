@@ -1,6 +1,6 @@
 // Scenes: any text is a scene, which then can be written and read again, or is refused.
-#include "jostle/io/scene_reader.hpp"
-#include "jostle/io/scene_writer.hpp"
+#include "jostle/scene_file/scene_reader.hpp"
+#include "jostle/scene_file/scene_writer.hpp"
 #include "reader_target.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {

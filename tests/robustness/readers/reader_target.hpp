@@ -11,8 +11,8 @@
 #include <string>
 #include <string_view>
 
+#include "jostle/disk/durable_file.hpp"
 #include "jostle/error/input_error.hpp"
-#include "jostle/io/durable_file.hpp"
 
 namespace fuzzing {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <set>
 
-#include "assemblies.hpp"
 #include "jostle/contact/collision_search.hpp"
 #include "jostle/math/rotation.hpp"
+#include "support/assemblies.hpp"
 
 using namespace jostle;
 using namespace jostle::test;

@@ -1,9 +1,9 @@
 #include <doctest/doctest.h>
 
-#include "assemblies.hpp"
 #include "jostle/contact/contact_matrix.hpp"
 #include "jostle/contact/find_contacts.hpp"
 #include "jostle/math/rotation.hpp"
+#include "support/assemblies.hpp"
 
 using namespace jostle;
 using namespace jostle::test;

@@ -1,8 +1,8 @@
 #include <doctest/doctest.h>
 
-#include "assemblies.hpp"
 #include "jostle/contact/find_contacts.hpp"
 #include "jostle/math/rotation.hpp"
+#include "support/assemblies.hpp"
 
 using namespace jostle;
 using namespace jostle::test;

@@ -3,10 +3,10 @@
 #include <set>
 #include <tuple>
 
-#include "assemblies.hpp"
 #include "jostle/contact/find_contacts.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/math/rotation.hpp"
+#include "support/assemblies.hpp"
 
 using namespace jostle;
 using namespace jostle::test;

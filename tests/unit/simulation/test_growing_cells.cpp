@@ -8,10 +8,10 @@
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/parallel/parallel_for.hpp"
-#include "jostle/simulation/assemble.hpp"
-#include "jostle/simulation/largest_overlap.hpp"
-#include "jostle/simulation/start.hpp"
-#include "jostle/simulation/validate_scene.hpp"
+#include "jostle/scene/validate_scene.hpp"
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/largest_overlap.hpp"
+#include "jostle/setup/start.hpp"
 
 using namespace jostle;
 

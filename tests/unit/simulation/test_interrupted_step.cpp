@@ -3,8 +3,8 @@
 #include <doctest/doctest.h>
 
 #include "jostle/rods/space_filling_order.hpp"
-#include "jostle/simulation/assemble.hpp"
-#include "jostle/simulation/start.hpp"
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/start.hpp"
 
 using namespace jostle;
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "jostle/error/input_error.hpp"
-#include "jostle/simulation/assemble.hpp"
+#include "jostle/setup/assemble.hpp"
 #include "jostle/stress/rigid_body_stress.hpp"
 #include "jostle/stress/spherocylinder_moments.hpp"
 #include "jostle/stress/spring_stress.hpp"

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "../contact/assemblies.hpp"
-#include "jostle/simulation/assemble.hpp"
-#include "jostle/simulation/largest_overlap.hpp"
-#include "jostle/simulation/start.hpp"
-#include "jostle/simulation/time_step_correction.hpp"
+#include "jostle/contact_problem/time_step_correction.hpp"
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/largest_overlap.hpp"
+#include "jostle/setup/start.hpp"
+#include "support/assemblies.hpp"
 
 using namespace jostle;
 

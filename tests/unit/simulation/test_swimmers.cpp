@@ -6,14 +6,14 @@
 #include <cmath>
 #include <string>
 
-#include "../contact/assemblies.hpp"
 #include "jostle/contact/pair_contacts.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/rods/space_filling_order.hpp"
-#include "jostle/simulation/assemble.hpp"
-#include "jostle/simulation/scene_motion.hpp"
-#include "jostle/simulation/start.hpp"
-#include "jostle/simulation/step_limits.hpp"
+#include "jostle/scene/scene_motion.hpp"
+#include "jostle/scene/step_limits.hpp"
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/start.hpp"
+#include "support/assemblies.hpp"
 
 using namespace jostle;
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "jostle/simulation/assemble.hpp"
-#include "jostle/simulation/warm_start.hpp"
+#include "jostle/contact_problem/warm_start.hpp"
+#include "jostle/setup/assemble.hpp"
 
 using namespace jostle;
 

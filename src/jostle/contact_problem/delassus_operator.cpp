@@ -1,0 +1,94 @@
+#include "jostle/contact_problem/delassus_operator.hpp"
+
+#include "jostle/parallel/parallel_for.hpp"
+
+namespace jostle {
+
+namespace {
+
+using Rod = DelassusOperator::Rod;
+
+/// normal.(velocity of the rod's point at `arm`) for a unit force along `normal` at that point.
+double point_mobility(const Rod& rod, const Vec3& normal, double arm) {
+    const double along = dot(normal, rod.axis);
+    const double across_squared = squared_norm(normal) - along * along;
+    const RodMobility& m = rod.mobility;
+    return m.parallel * along * along + (m.perpendicular + arm * arm * m.rotational) * across_squared;
+}
+
+}  // namespace
+
+double gap_mobility(const Contact& contact, const Rod& i, const Rod& j) {
+    if (contact.i == contact.j) {  // own image: the centre stays, only turning opens the gap
+        const double along = dot(contact.normal, i.axis);
+        const double lever = contact.arm_j - contact.arm_i;
+        return lever * lever * i.mobility.rotational * (squared_norm(contact.normal) - along * along);
+    }
+    return point_mobility(i, contact.normal, contact.arm_i) + point_mobility(j, contact.normal, contact.arm_j);
+}
+
+DelassusOperator::DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods, const Mobility& mobility,
+                                   double compliance)
+    : contact_matrix_(contact_matrix), all_rods_(rods), mobility_(mobility), compliance_(compliance) {
+    extend();
+}
+
+void DelassusOperator::extend() {
+    const auto rows = contact_matrix_.rods();
+    const std::size_t known_rods = rods_.size(), known_contacts = diagonal_.size();
+    rods_.resize(rows.size());
+    parallel_for(rows.size() - known_rods, [&](std::size_t k) {
+        const std::size_t place = known_rods + k;
+        rods_[place] = {all_rods_.axis[rows[place]], mobility_.of_rod(rows[place])};
+    });
+    diagonal_.resize(contact_matrix_.size());
+    parallel_for(diagonal_.size() - known_contacts, [&](std::size_t k) {
+        const std::size_t l = known_contacts + k;
+        const auto [i, j] = contact_matrix_.ends()[l];
+        diagonal_[l] = (1.0 + compliance_) * gap_mobility(contact_matrix_.contacts().contact[l], rods_[i], rods_[j]);
+    });
+}
+
+void DelassusOperator::apply(std::span<const double> gamma, std::span<double> rates) const {
+    forces_.resize(rods_.size());
+    velocities_.resize(rods_.size());
+    velocities(gamma, forces_, velocities_);
+    this->rates(velocities_, gamma, rates);
+}
+
+void DelassusOperator::rates(std::span<const ContactVelocity> velocities, std::span<const double> gamma,
+                             std::span<double> rates) const {
+    contact_matrix_.apply_transpose(velocities, rates);
+    if (!compliant()) return;
+    parallel_for(rates.size(), [&](std::size_t l) { rates[l] += compliance(l) * gamma[l]; });
+}
+
+void DelassusOperator::velocities(std::span<const double> gamma, std::span<ContactForce> forces,
+                                  std::span<ContactVelocity> velocities) const {
+    contact_matrix_.apply(gamma, forces);
+    if (couples_rods()) {
+        apply_coupling_mobility(forces, velocities);
+        return;
+    }
+    parallel_for(rods_.size(), [&](std::size_t place) {
+        velocities[place] = velocity_of(rods_[place], forces[place].force, forces[place].lever);
+    });
+}
+
+void DelassusOperator::apply_coupling_mobility(std::span<const ContactForce> forces,
+                                               std::span<ContactVelocity> velocities) const {
+    const auto rows = contact_matrix_.rods();
+    Forces all_forces(all_rods_.size());
+    Velocities all_velocities(all_rods_.size());
+    parallel_for(rows.size(), [&](std::size_t place) {
+        all_forces.force[rows[place]] = forces[place].force;
+        all_forces.torque[rows[place]] = cross(rods_[place].axis, forces[place].lever);
+    });
+    mobility_.apply(all_rods_, all_forces, all_velocities);
+    parallel_for(rows.size(), [&](std::size_t place) {
+        const std::uint32_t row = rows[place];
+        velocities[place] = {all_velocities.linear[row], cross(all_velocities.angular[row], rods_[place].axis)};
+    });
+}
+
+}  // namespace jostle

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "jostle/contact_problem/contact_solver.hpp"
+
+namespace jostle {
+
+/// Projected successive over-relaxation on the rods' velocities: for mobilities that do not couple rods.
+///
+/// The velocities V = M D gamma are kept up to date, and the contacts of one pair after another are solved for the
+/// velocities as they are (a pair may touch at up to three points, which are nearly dependent, so these are solved
+/// together):
+///
+///     gamma* solves the pair's own contact problem;  gamma <- max(gamma + omega (gamma* - gamma), 0);  V <- V + M D
+///     (change).
+///
+/// This converges for every symmetric positive semi-definite A and 0 < omega < 2 (Cryer 1971; Mangasarian 1977), many
+/// times faster than a gradient method, because a pair's forces act on its rods at once. Pairs are coloured, greedily
+/// and in their order, so that no two of one colour share a rod: pairs of a colour can be solved by any threads in any
+/// order with the same result.
+///
+/// Only contacts that push, or are about to, take part in most sweeps (Sweeper). Before the result is called solved,
+/// forces and velocities are computed anew from gamma, and the residual over all contacts from them. Missed contacts
+/// are asked for now and then while sweeps go on, and with every solution. The outcome's iterations are sweeps.
+SolverOutcome solve_projected_sor(const ContactProblem& problem, const LcpSettings& settings,
+                                  ContactSolution& solution);
+
+}  // namespace jostle

@@ -1,0 +1,247 @@
+#include "jostle/contact_problem/sweeper.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+#include "jostle/parallel/parallel_for.hpp"
+
+namespace jostle {
+
+namespace {
+
+constexpr std::size_t most_colours = 64;
+/// A contact without force takes part in the sweeps over those awake if its gap would open by less than this many
+/// tolerances.
+constexpr double drowsy = 100.0;
+/// Beginning warm, a contact takes part if it, or another of its rods, changes a gap by more than this part of the
+/// tolerance in a sweep.
+constexpr double quiet = 0.5;
+
+/// Whether a new contact takes part from the first sweep on: pairs that touch at several points always do.
+template <class Real>
+bool awake_at_first(const SweptContact<Real>& contact) {
+    return contact.b < 0 || contact.gamma > 0;
+}
+bool awake_at_first(const SweptPair&) {
+    return true;
+}
+
+}  // namespace
+
+template <class Real>
+Sweeper<Real>::Sweeper(const ContactProblem& problem, double tolerance, const std::vector<double>& start)
+    : matrix_(problem.matrix),
+      b_(problem.constant),
+      start_(start),
+      drowsy_velocity_(drowsy * tolerance / problem.time_step),
+      quiet_velocity_(problem.start.empty() ? 0.0 : quiet * tolerance / problem.time_step) {
+    extend();
+}
+
+template <class Real>
+void Sweeper<Real>::extend() {
+    velocities_.resize(matrix_.rods().size());
+    colour_pairs();
+    fill();
+}
+
+template <class Real>
+double Sweeper<Real>::sweep(double omega, SweepOver over) {
+    const bool all = over == SweepOver::all;
+    if (all && quiet_velocity_ > 0.0) stirred_.assign(velocities_.size(), 0.0F);
+    const Places<Real> places{matrix_.rods().data(), velocities_.data(),
+                              all && quiet_velocity_ > 0.0 ? stirred_.data() : nullptr};
+    double largest = 0.0;
+    const auto pass = [&](auto& group) {
+        const std::size_t items = all ? group.items.size() : group.all_awake;
+        largest = std::max(largest, parallel_max_of_blocks(group.awake.size(), items, [&](std::size_t number) {
+                               const auto block = group.block(number);
+                               return sweep_over(all ? block : block.first(group.awake[number]), omega, places);
+                           }));
+    };
+    for (Colour& colour : colours_) {
+        pass(colour.singles);
+        pass(colour.pairs);
+    }
+    if (all) {
+        for (Colour& colour : colours_) {
+            find_awake(colour.singles);
+            find_awake(colour.pairs);
+        }
+    }
+    return largest;
+}
+
+template <class Real>
+void Sweeper<Real>::read_velocities(std::span<ContactVelocity> velocities) const {
+    parallel_for(velocities.size(), [&](std::size_t place) { velocities[place] = velocities_[place].velocity(); });
+}
+
+template <class Real>
+void Sweeper<Real>::refresh(ContactSolution& solution) {
+    parallel_for(solution.forces.size(), [&](std::size_t place) { solution.forces[place] = {}; });
+    const ContactMatrix& contact_matrix = matrix_.contact_matrix();
+    for_all_forces([&](std::uint32_t l, double gamma) {
+        solution.gamma[l] = gamma;
+        if (gamma == 0.0) return;
+        const auto [i, j] = contact_matrix.ends()[l];
+        add_push(gamma, contact_matrix.contacts().contact[l], solution.forces[i], solution.forces[j]);
+    });
+    parallel_for(solution.forces.size(), [&](std::size_t place) {
+        const ContactForce& force = solution.forces[place];
+        ContactVelocity& velocity = solution.velocities[place];
+        velocity = velocity_of(matrix_.rods()[place], force.force, force.lever);
+        velocities_[place] = Wide<Real>(velocity);
+    });
+}
+
+/// Greedily, in the order of the contacts: a pair gets the first colour that neither of its rods has yet.
+template <class Real>
+void Sweeper<Real>::colour_pairs() {
+    const auto ends = matrix_.contact_matrix().ends();
+    const Contacts& contacts = matrix_.contact_matrix().contacts();
+    taken_.resize(matrix_.rods().size(), 0);
+    for (FirstContacts& new_ones : new_contacts_) new_ones = {};
+    for (auto l = static_cast<std::uint32_t>(coloured_); l < ends.size();) {
+        const auto [i, j] = ends[l];
+        std::uint32_t next = l + 1;
+        while (next < ends.size() && next < l + most_points && ends[next].i == i && ends[next].j == j &&
+               contacts.image[next] == contacts.image[l])
+            ++next;
+        auto colour = static_cast<std::size_t>(std::countr_one(taken_[i] | taken_[j]));
+        if (colour < most_colours) {
+            taken_[i] |= std::uint64_t{1} << colour;
+            taken_[j] |= std::uint64_t{1} << colour;
+        } else {  // a rod with very many neighbours: pairs that stand alone
+            colour = std::max(new_contacts_.size(), most_colours);
+        }
+        if (new_contacts_.size() <= colour) new_contacts_.resize(colour + 1);
+        auto& [singles, pairs] = new_contacts_[colour];
+        if (next == l + 1)
+            singles.push_back(l);
+        else
+            pairs.push_back({l, next - l});
+        l = next;
+    }
+    coloured_ = ends.size();
+    colours_.resize(new_contacts_.size());
+}
+
+template <class Real>
+void Sweeper<Real>::fill() {
+    for (std::size_t k = 0; k < colours_.size(); ++k) {
+        append(colours_[k].singles, new_contacts_[k].singles, [&](std::uint32_t l) { return contact_of(l); });
+        append(colours_[k].pairs, new_contacts_[k].pairs,
+               [&](const auto& contacts) { return pair_of(contacts.first, contacts.second); });
+    }
+}
+
+template <class Real>
+template <class Item, class Source, class MakeItem>
+void Sweeper<Real>::append(Group<Item>& group, const std::vector<Source>& sources, MakeItem&& item_of) {
+    const std::size_t before = group.items.size();
+    group.items.resize(before + sources.size());
+    parallel_for(sources.size(), [&](std::size_t n) { group.items[before + n] = item_of(sources[n]); });
+    group.sort_out(before, [](const Item& item) { return awake_at_first(item); });
+}
+
+template <class Real>
+template <class Item>
+template <class IsAwake>
+void Sweeper<Real>::Group<Item>::sort_out(std::size_t first, IsAwake&& is_awake) {
+    const std::size_t known_blocks = first / block_size;  // with nothing new
+    awake.resize((items.size() + block_size - 1) / block_size, 0);
+    parallel_for_blocks(items.size() - known_blocks * block_size, block_size,
+                        [&](std::size_t new_block, std::size_t, std::size_t) {
+                            const std::size_t number = known_blocks + new_block, begin = number * block_size;
+                            const auto in_block = block(number);
+                            std::size_t k = first > begin ? first - begin : 0;
+                            std::size_t front = k > 0 ? awake[number] : 0;
+                            for (; k < in_block.size(); ++k) {
+                                if (!is_awake(in_block[k])) continue;
+                                if (front != k) std::swap(in_block[front], in_block[k]);
+                                ++front;
+                            }
+                            awake[number] = static_cast<std::uint8_t>(front);
+                        });
+    all_awake = std::accumulate(awake.begin(), awake.end(), std::size_t{0});
+}
+
+template <class Real>
+SweptContact<Real> Sweeper<Real>::contact_of(std::uint32_t l) const {
+    const auto [i, j] = matrix_.contact_matrix().ends()[l];
+    ContactForce on_i, on_j;
+    add_push(1.0, matrix_.contact_matrix().contacts().contact[l], on_i, on_j);
+    const auto answer = [&](std::uint32_t place, const ContactForce& to) {
+        return Wide<Real>(velocity_of(matrix_.rods()[place], to.force, to.lever));
+    };
+    const double diagonal = matrix_.diagonal()[l];
+    SweptContact<Real> contact;
+    contact.column_i = Wide<Real>(on_i);
+    contact.column_j = Wide<Real>(on_j);
+    contact.answer_i = answer(i, on_i);
+    contact.answer_j = answer(j, on_j);
+    contact.b = static_cast<Real>(b_[l]);
+    contact.gamma = static_cast<Real>(start_[l]);
+    contact.compliance = static_cast<Real>(matrix_.compliance(l));
+    contact.diagonal = static_cast<Real>(diagonal);
+    contact.inverse_diagonal = static_cast<Real>(diagonal > 0.0 ? 1.0 / diagonal : 0.0);
+    contact.i = i;
+    contact.j = j;
+    contact.number = l;
+    return contact;
+}
+
+template <class Real>
+SweptPair Sweeper<Real>::pair_of(std::uint32_t first, std::uint32_t count) const {
+    const auto [i, j] = matrix_.contact_matrix().ends()[first];
+    SweptPair pair;
+    pair.count = count;
+    pair.i = i;
+    pair.j = j;
+    pair.first = first;
+    for (std::uint32_t a = 0; a < count; ++a) {
+        const std::uint32_t l = first + a;
+        const Contact& contact = matrix_.contact_matrix().contacts().contact[l];
+        pair.points[a] = {contact.normal, contact.arm_i, contact.arm_j, b_[l], start_[l], matrix_.compliance(l)};
+    }
+    for (std::uint32_t c = 0; c < count; ++c) {
+        ContactForce on_i, on_j;
+        add_push(1.0, pair.points[c], on_i, on_j);
+        if (i == j) on_i = on_j = {on_i.force + on_j.force, on_i.lever + on_j.lever};  // own image: one rod feels both
+        const ContactVelocity of_i = velocity_of(matrix_.rods()[i], on_i.force, on_i.lever);
+        const ContactVelocity of_j = velocity_of(matrix_.rods()[j], on_j.force, on_j.lever);
+        for (std::uint32_t a = 0; a < count; ++a) pair.matrix[a][c] = gap_rate(pair.points[a], of_i, of_j);
+        pair.matrix[c][c] += pair.points[c].compliance;
+    }
+    return pair;
+}
+
+template <class Real>
+template <class Item>
+void Sweeper<Real>::find_awake(Group<Item>& group) {
+    group.sort_out(0, [&](const Item& item) {
+        const auto moves = [&](std::uint32_t place) { return static_cast<double>(stirred_[place]) > quiet_velocity_; };
+        if (!stirred_.empty() && !moves(item.i) && !moves(item.j)) return false;
+        return may_push(item, velocities_.data(), drowsy_velocity_);
+    });
+}
+
+/// Calls body(number, force) for all contacts; those of a colour in parallel.
+template <class Real>
+template <class Body>
+void Sweeper<Real>::for_all_forces(Body&& body) {
+    const auto pass = [&](auto items) {
+        parallel_for(items.size(), [&](std::size_t k) { for_forces(items[k], body); });
+    };
+    for (Colour& colour : colours_) {
+        pass(std::span(colour.singles.items));
+        pass(std::span(colour.pairs.items));
+    }
+}
+
+template class Sweeper<float>;
+template class Sweeper<double>;
+
+}  // namespace jostle

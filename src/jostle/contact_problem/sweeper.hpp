@@ -1,0 +1,97 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "jostle/contact_problem/contact_solver.hpp"
+#include "jostle/contact_problem/swept_contacts.hpp"
+
+namespace jostle {
+
+/// What a sweep passes over.
+enum class SweepOver { all, awake };
+
+/// Keeps the velocities of the rods, V = M D gamma, while contacts are solved one after the other.
+///
+/// Pairs are coloured, so that no two of a colour share a rod. A sweep over all finds those that are awake: that push
+/// or may soon, and, where sweeps begin from the forces of the last step, that still change by more than a part of the
+/// tolerance, or have a rod that does. A crowd is then solved where it moves, not where it has come to rest. Real is
+/// what velocities and single contacts are stored in; pairs, whose matrices may be nearly singular, are in double.
+template <class Real>
+class Sweeper {
+public:
+    /// Starts from `start`, as many numbers as there are contacts; contacts that come later start from what is then
+    /// there. Holds references.
+    Sweeper(const ContactProblem& problem, double tolerance, const std::vector<double>& start);
+
+    /// Takes in the contacts that the problem has grown by; awake are those whose gap closes without forces.
+    void extend();
+
+    /// One pass; returns the largest change of a gap velocity by a contact's own force.
+    double sweep(double omega, SweepOver over);
+
+    /// The velocities of the rods as the sweeps have left them.
+    void read_velocities(std::span<ContactVelocity> velocities) const;
+
+    /// Fills `solution` from gamma alone, in double, so that no rounding of the sweeps is left in it.
+    void refresh(ContactSolution& solution);
+
+private:
+    /// Contacts of one kind and colour. Their order does not matter to the result: those awake come first in each block
+    /// of as many as stay in a near cache with their rods' velocities.
+    template <class Item>
+    struct Group {
+        static constexpr std::size_t block_size = 128;
+        std::vector<Item> items;
+        std::vector<std::uint8_t> awake;  ///< (blocks) how many are
+        std::size_t all_awake = 0;
+
+        std::span<Item> block(std::size_t number) {
+            const std::size_t begin = number * block_size;
+            return std::span(items).subspan(begin, std::min(block_size, items.size() - begin));
+        }
+
+        /// Brings the items from `first` on that are awake to the front of their blocks; of those before, as many are
+        /// as `awake` tells.
+        template <class IsAwake>
+        void sort_out(std::size_t first, IsAwake&& is_awake);
+    };
+    struct Colour {
+        Group<SweptContact<Real>> singles;
+        Group<SweptPair> pairs;
+    };
+    struct FirstContacts {
+        std::vector<std::uint32_t> singles;
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  ///< first, count
+    };
+
+    void colour_pairs();
+    void fill();
+    SweptContact<Real> contact_of(std::uint32_t l) const;
+    SweptPair pair_of(std::uint32_t first, std::uint32_t count) const;
+    template <class Item, class Source, class MakeItem>
+    static void append(Group<Item>& group, const std::vector<Source>& sources, MakeItem&& item_of);
+    template <class Item>
+    void find_awake(Group<Item>& group);
+    template <class Body>
+    void for_all_forces(Body&& body);
+
+    const DelassusOperator& matrix_;
+    const std::vector<double>& b_;
+    const std::vector<double>& start_;
+    double drowsy_velocity_, quiet_velocity_;
+    std::vector<Wide<Real>> velocities_;  ///< (places) V, kept up to date
+    std::vector<float> stirred_;  ///< (places) the largest change in the last sweep over all; empty if not asked for
+    std::vector<std::uint64_t> taken_;         ///< (places) a bit for each colour that a rod has
+    std::size_t coloured_ = 0;                 ///< contacts taken in
+    std::vector<FirstContacts> new_contacts_;  ///< of the pairs of each colour, while they are taken in
+    std::vector<Colour> colours_;
+};
+
+extern template class Sweeper<float>;
+extern template class Sweeper<double>;
+
+}  // namespace jostle

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "jostle/run_files/checkpoint.hpp"
+#include "jostle/scene/scene.hpp"
+#include "jostle/simulation/simulation.hpp"
+#include "jostle/stress/active_stress.hpp"
+#include "jostle/stress/stress_field.hpp"
+
+namespace jostle {
+
+/// What is added up over the steps of one row of the series, and over the whole run. Goes into every checkpoint.
+struct StepSums {
+    // since the last row
+    double steps = 0.0;
+    double rods = 0.0;  ///< summed over the steps
+    Mat3 collision_virial, spring_virial, centre_of_mass_virial, centre_line_virial;
+    double contacts = 0.0;
+    double active_contacts = 0.0;
+    double iterations = 0.0;
+    double residual = 0.0;     ///< the largest
+    double max_overlap = 0.0;  ///< the largest, a length
+    // since the start of the run
+    double run_max_overlap = 0.0;
+    // of swimmers
+    std::optional<ActiveStress> active_stress;
+    Mat3 active_virial;  ///< V times it, at the step of the row
+    // since the last field
+    std::optional<StressField> field;
+
+    /// Adds a step that was just made.
+    void add(const StepReport& report, const Simulation& simulation);
+    /// Measures the active stress, where rods swim; due at every row.
+    void look_at_swimmers(const Scene& scene, const Simulation& simulation);
+    void start_row();
+
+    std::vector<double> to_numbers() const;
+    /// Of a run of `scene`. Errors: InputError if they are not those that such a run has.
+    static StepSums from_numbers(const std::vector<double>& numbers, const Scene& scene);
+
+private:
+    void add(const StepReport& report);
+};
+
+/// A checkpoint of the state and the sums; of files it knows nothing yet.
+Checkpoint checkpoint_of(const Simulation& simulation, const StepSums& sums, std::string scene);
+
+/// Sums at the beginning of a run.
+StepSums first_sums(const Scene& scene, const Simulation& simulation);
+
+}  // namespace jostle

@@ -1,0 +1,200 @@
+#include "jostle/run_files/trajectory_journal.hpp"
+
+#include <string_view>
+
+namespace jostle {
+namespace {
+
+using Content = TrajectoryJournal::Content;
+
+constexpr std::string_view magic = "\x89JTRAJ\r\n";
+constexpr std::uint32_t format_version = 1;
+constexpr std::uint64_t file_header_bytes = 16;
+constexpr std::array<char, 8> frame_mark = {'F', 'R', 'A', 'M', 'E', 0, 0, 0};
+constexpr std::uint64_t frame_header_bytes = 72;
+constexpr std::uint64_t rod_bytes = 52, stress_bytes = 72;
+constexpr std::uint64_t checksum_bytes = 8;
+constexpr const char* put_back = "Put the file back, or start again with --fresh";
+
+std::uint64_t bytes_per_rod(Content content) {
+    return content == Content::rods ? rod_bytes : rod_bytes + stress_bytes;
+}
+
+std::string file_header(Content content) {
+    ByteWriter writer;
+    writer.put(format_version);
+    writer.put(static_cast<std::uint32_t>(content));
+    return std::string(magic) + writer.bytes();
+}
+
+void put_single(ByteWriter& writer, const std::vector<Vec3>& vectors) {
+    for (const Vec3& v : vectors)
+        writer.put(std::array<float, 3>{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)});
+}
+
+void put_single(ByteWriter& writer, const std::vector<double>& values) {
+    for (const double value : values) writer.put(static_cast<float>(value));
+}
+
+std::uint64_t periodic_bits(const Box& box) {
+    return (box.periodic[0] ? 1u : 0u) | (box.periodic[1] ? 2u : 0u) | (box.periodic[2] ? 4u : 0u);
+}
+
+/// Fills the frame's header and returns N. The frame mark has been read before.
+std::uint64_t take_header(ByteReader& reader, TrajectoryFrame& frame) {
+    frame.step = reader.take<std::uint64_t>();
+    frame.time = reader.take<double>();
+    frame.box.edges = reader.take<Vec3>();
+    const auto periodic = reader.take<std::uint64_t>();
+    for (std::size_t k = 0; k < 3; ++k) frame.box.periodic[k] = (periodic >> k & 1u) != 0;
+    return reader.take<std::uint64_t>();
+}
+
+void take_rods(ByteReader& reader, std::uint64_t count, Content content, TrajectoryFrame& frame) {
+    reader.take_elements(count, frame.id);
+    reader.take_elements(count, frame.centre);
+    reader.take_elements(count, frame.image);
+    reader.take_elements(count, frame.axis);
+    reader.take_elements(count, frame.length);
+    reader.take_elements(count, frame.diameter);
+    reader.take_elements(content == Content::rods_and_stress ? count : 0, frame.stress);
+}
+
+/// Whether the last 8 of `bytes` are the checksum of those before.
+bool sound(std::string_view bytes) {
+    const std::size_t size = bytes.size() - checksum_bytes;
+    return ByteReader(bytes.substr(size)).take<std::uint64_t>() == checksum(bytes.substr(0, size));
+}
+
+/// What the frames up to `bytes`, once found to be those of the checkpoint, go on with.
+struct CheckedFrames {
+    Content content;
+    RunningChecksum checksum;
+};
+
+CheckedFrames checked_frames(const std::string& path, std::uint64_t bytes, std::uint64_t hash) {
+    TrajectoryReader reader(path);
+    TrajectoryFrame frame;
+    while (reader.offset() < bytes && reader.next(frame)) {
+    }
+    if (reader.offset() != bytes)
+        throw refused_file(path,
+                           "the trajectory does not fit the checkpoint: its whole frames end at byte " +
+                               std::to_string(reader.offset()) + ", the checkpoint needs " + std::to_string(bytes),
+                           put_back);
+    CheckedFrames frames{reader.content(), reader.take_checksum()};
+    if (frames.checksum.value() != hash)
+        throw refused_file(path,
+                           "the trajectory is of another run: its first " + std::to_string(bytes) +
+                               " bytes are sound, and not those that the checkpoint stands for",
+                           put_back);
+    return frames;
+}
+
+}  // namespace
+
+TrajectoryJournal TrajectoryJournal::create(const std::string& path, Content content) {
+    TrajectoryJournal journal{AppendFile(path), content};
+    journal.file_.truncate_to(0);
+    journal.write(file_header(content));
+    return journal;
+}
+
+TrajectoryJournal TrajectoryJournal::resume(const std::string& path, std::uint64_t bytes, std::uint64_t hash) {
+    CheckedFrames frames = checked_frames(path, bytes, hash);
+    TrajectoryJournal journal{AppendFile(path), frames.content};
+    journal.checksum_ = std::move(frames.checksum);
+    journal.file_.truncate_to(bytes);
+    return journal;
+}
+
+void TrajectoryJournal::require_frames(const std::string& path, std::uint64_t bytes, std::uint64_t hash) {
+    checked_frames(path, bytes, hash);
+}
+
+void TrajectoryJournal::write(const std::string& bytes) {
+    file_.write_all(bytes);
+    checksum_.add(bytes);
+}
+
+void TrajectoryJournal::append(std::uint64_t step, double time, const Box& box, const Rods& rods,
+                               const std::vector<Mat3>& stress) {
+    const std::size_t needed = content_ == Content::rods ? 0 : rods.size();
+    if (stress.size() != needed)
+        throw InputError({.key = "stress",
+                          .value = std::to_string(stress.size()) + " rows",
+                          .problem = "does not fit the journal",
+                          .allowed = std::to_string(needed) + " rows"});
+    frame_.clear();
+    frame_.put(frame_mark);
+    frame_.put(step);
+    frame_.put(time);
+    frame_.put(box.edges);
+    frame_.put(periodic_bits(box));
+    frame_.put(static_cast<std::uint64_t>(rods.size()));
+    frame_.put(checksum(frame_.bytes()));
+    frame_.put_elements(rods.id);
+    put_single(frame_, rods.centre);
+    frame_.put_elements(rods.image);
+    put_single(frame_, rods.axis);
+    put_single(frame_, rods.length);
+    put_single(frame_, rods.diameter);
+    frame_.put_elements(stress);
+    frame_.put(checksum(frame_.bytes()));
+    write(frame_.bytes());
+}
+
+TrajectoryReader::TrajectoryReader(const std::string& path) : file_(path), offset_(file_header_bytes) {
+    file_.read_up_to(file_header_bytes, buffer_);
+    for (const Content content : {Content::rods, Content::rods_and_stress}) {
+        content_ = content;
+        if (buffer_ != file_header(content)) continue;
+        checksum_.add(buffer_);
+        return;
+    }
+    if (file_header(Content::rods).starts_with(buffer_))
+        throw refused_file(path,
+                           "the trajectory is truncated: it has " + std::to_string(buffer_.size()) +
+                               " bytes, its header alone has " + std::to_string(file_header_bytes),
+                           put_back);
+    if (!buffer_.starts_with(magic))
+        throw refused_file(path, "is not a trajectory journal of jostle: it does not begin with the right 8 bytes",
+                           put_back);
+    throw refused_file(
+        path, "the trajectory journal is damaged or has another format version than " + std::to_string(format_version),
+        "Go on with the jostle that wrote it, or start again with --fresh");
+}
+
+bool TrajectoryReader::next(TrajectoryFrame& frame) {
+    const auto damaged = [this](const std::string& what) {
+        return refused_file(file_.path(),
+                            "the trajectory is damaged: frame " + std::to_string(frames_ + 1) + ", at byte " +
+                                std::to_string(offset_) + ", " + what,
+                            put_back);
+    };
+    file_.read_up_to(frame_header_bytes, buffer_);
+    if (buffer_.size() < frame_header_bytes) return false;
+    // The header has a checksum of its own because N decides where the frame ends.
+    if (!sound(buffer_)) throw damaged("has a header that does not match its checksum");
+    std::string whole = buffer_;
+    ByteReader header(whole);
+    if (header.take<std::array<char, 8>>() != frame_mark) throw damaged("does not begin with the frame mark");
+    const std::uint64_t count = take_header(header, frame);
+    if (frames_ > 0 && frame.step <= last_step_) throw damaged("is not later than the frame before it");
+
+    if (count > (file_.size() - offset_) / bytes_per_rod(content_)) return false;
+    const std::uint64_t rest_bytes = count * bytes_per_rod(content_) + checksum_bytes;
+    file_.read_up_to(rest_bytes, buffer_);
+    if (buffer_.size() < rest_bytes) return false;
+    whole += buffer_;
+    if (!sound(whole)) throw damaged("does not match its checksum");
+    ByteReader rods(buffer_);
+    take_rods(rods, count, content_, frame);
+    offset_ += frame_header_bytes + rest_bytes;
+    checksum_.add(whole);
+    ++frames_;
+    last_step_ = frame.step;
+    return true;
+}
+
+}  // namespace jostle

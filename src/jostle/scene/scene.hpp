@@ -1,0 +1,129 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "jostle/contact_problem/solver_method.hpp"
+#include "jostle/growth/growth_law.hpp"
+#include "jostle/math/vec3.hpp"
+
+namespace jostle {
+
+enum class UnitSystem { reduced, micro };
+enum class StartKind { random, aligned, lattice, file };
+enum class MobilityModel { slender_body, finite_aspect_ratio, capsule };
+enum class ContactModel { hard, wca };
+enum class WarmStarts { automatic, always, never };
+enum class StepRule { bb1, bb2, alternating };
+enum class ResidualKind { length, paper };
+
+/// The step of a scene that names none: rms_step of `Scene::Time`.
+inline constexpr double default_rms_step = 0.03;
+
+/// A scene: everything that the user decides. Member names are the keys of the TOML file; one struct a table.
+///
+/// All numbers are in the units of `units.system`. `validate` says whether the values make sense together;
+/// scene_keys.hpp lists the keys with the dimension and the range of each.
+struct Scene {
+    std::string title;
+    std::uint64_t seed = 1;
+
+    struct Units {
+        UnitSystem system = UnitSystem::reduced;  // "reduced": D = kT = 1; "micro": um, s, pN
+        bool operator==(const Units&) const = default;
+    } units;
+
+    struct BoxTable {
+        std::optional<double> volume_fraction;  // either this, with `shape` ...
+        Vec3 shape{1, 1, 1};                    // ratio of the edges
+        std::optional<Vec3> edges;              // ... or the edges
+        std::array<bool, 3> periodic{true, true, true};
+        bool operator==(const BoxTable&) const = default;
+    } box;
+
+    struct RodsTable {
+        std::uint64_t count = 0;          // with start = "file": 0, as many as the file holds
+        double length = 0.0;              // of the cylinder part; mean over rods
+        double diameter = 1.0;            // mean over rods
+        double length_deviation = 0.0;    // standard deviations of the rods' own lengths ...
+        double diameter_deviation = 0.0;  // ... and diameters
+        StartKind start = StartKind::random;
+        Vec3 axis{1, 0, 0};  // direction of aligned and lattice starts
+        std::string file;    // for start = "file"; relative to the scene's folder
+        bool operator==(const RodsTable&) const = default;
+    } rods;
+
+    struct Fluid {
+        double viscosity = 1.0;
+        double kT = 1.0;
+        bool operator==(const Fluid&) const = default;
+    } fluid;
+
+    struct MobilityTable {
+        MobilityModel model = MobilityModel::capsule;
+        bool operator==(const MobilityTable&) const = default;
+    } mobility;
+
+    struct MotionTable {
+        bool brownian = true;
+        double self_propulsion = 0.0;            // mean speed along the axis
+        double self_propulsion_deviation = 0.0;  // of the rods' own speeds
+        double tumble_rate = 0.0;
+        std::optional<double> tumble_time;  // how long a tumble takes; "auto" (empty): 0.1/tumble_rate
+        double reversal_rate = 0.0;
+        bool operator==(const MotionTable&) const = default;
+    } motion;
+
+    GrowthLaw growth;  // rate 0: none
+
+    struct SpringsTable {
+        std::string file;  // relative to the scene's folder; empty: no springs
+        bool operator==(const SpringsTable&) const = default;
+    } springs;
+
+    struct ContactTable {
+        ContactModel model = ContactModel::hard;  // "hard": the contact problem; "wca": a soft potential
+        std::optional<double> energy;             // of the potential; "auto" (empty): kT
+        bool brownian_correction = true;          // shift, compliance, true gap after the known motion (theory, 3)
+        std::optional<double> range;  // "auto" (empty): from the step; a length: at least all pairs with a smaller gap
+        double overlap_limit = 0.2;   // in D; a larger overlap at the beginning of a step ends the run (exit 3)
+        bool operator==(const ContactTable&) const = default;
+    } contact;
+
+    struct Solver {
+        SolverMethod method = SolverMethod::automatic;
+        WarmStarts warm_start = WarmStarts::automatic;  // whether a step begins from the forces of the last one
+        StepRule step_rule = StepRule::bb1;
+        ResidualKind residual = ResidualKind::length;
+        double tolerance = 1e-5;  // residual "length": largest remaining overlap per step, in D; "paper": its norm
+        std::uint64_t max_iterations = 10000;
+        bool operator==(const Solver&) const = default;
+    } solver;
+
+    struct Time {
+        std::optional<double> step;           // either this ...
+        std::optional<double> rms_step;       // ... or sqrt(2 D_t step), fastest rod, over D, thinnest; neither: 0.03
+        std::optional<double> equilibration;  // "auto" (empty) or a time
+        double production = 0.0;              // time averaged over
+        bool operator==(const Time&) const = default;
+    } time;
+
+    struct Output {
+        std::uint64_t series_every = 10;          // steps a row
+        std::uint64_t trajectory_every = 0;       // steps a frame; 0: none
+        std::uint64_t checkpoint_every = 1000;    // steps
+        bool contacts = false;                    // write the active contacts of every series step
+        bool stress_conventions = false;          // other conventions of the collision stress, too
+        bool stress_per_rod = false;              // write the stress of every rod with every frame
+        std::uint64_t field_every = 0;            // steps that a stress field is the mean of; 0: none
+        std::optional<double> field_spacing;      // least edge of its cells; "auto" (empty): length + diameter of a rod
+        std::optional<double> active_stress_lag;  // time; "auto" (empty): 5 persistence times of a free rod
+        bool operator==(const Output&) const = default;
+    } output;
+
+    bool operator==(const Scene&) const = default;
+};
+
+}  // namespace jostle

@@ -1,0 +1,54 @@
+#include "jostle/scene/scene_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jostle {
+
+namespace {
+
+/// Of the mean time between tumbles, with tumble_time = "auto": as bacteria do (Berg and Brown 1972).
+constexpr double automatic_tumble_share = 0.1;
+/// Persistence times after which a free swimmer has forgotten where it swam: exp(-5) = 0.7 %.
+constexpr double automatic_lag = 5.0;
+
+}  // namespace
+
+double thermal_energy(const Scene& scene) {
+    return scene.motion.brownian ? scene.fluid.kT : 0.0;
+}
+
+Swimming swimming_of(const Scene& scene) {
+    const Scene::MotionTable& motion = scene.motion;
+    Swimming swimming = {motion.self_propulsion, motion.self_propulsion_deviation, motion.tumble_rate, 0.0,
+                         motion.reversal_rate};
+    if (motion.tumble_rate > 0.0)
+        swimming.tumble_time = motion.tumble_time.value_or(automatic_tumble_share / motion.tumble_rate);
+    return swimming;
+}
+
+double fastest_diffusion(double kT, const Mobility& mobility, std::size_t rod_count) {
+    double fastest = 0.0;
+    for (std::size_t i = 0; i < rod_count; ++i) {
+        const RodMobility rod = mobility.of_rod(i);
+        fastest = std::max(fastest, kT * (rod.parallel + 2.0 * rod.perpendicular) / 3.0);
+    }
+    return fastest;
+}
+
+double persistence_time(const Scene& scene, const Mobility& mobility, std::size_t rod_count) {
+    const double kT = thermal_energy(scene);
+    const double turns = scene.motion.tumble_rate + 2.0 * scene.motion.reversal_rate;
+    double longest = 0.0;
+    for (std::size_t i = 0; i < rod_count; ++i)
+        longest = std::max(longest, 1.0 / (2.0 * kT * mobility.of_rod(i).rotational + turns));
+    return longest;
+}
+
+double active_stress_lag(const Scene& scene, const Mobility& mobility, std::size_t rod_count) {
+    if (scene.output.active_stress_lag) return *scene.output.active_stress_lag;
+    const double persistence = persistence_time(scene, mobility, rod_count);
+    return std::isfinite(persistence) ? automatic_lag * persistence : 0.1 * scene.time.production;
+}
+
+}  // namespace jostle

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+
+#include "jostle/mobility/mobility.hpp"
+#include "jostle/motion/self_propulsion.hpp"
+#include "jostle/scene/scene.hpp"
+
+// How the rods of a scene move by themselves.
+
+namespace jostle {
+
+/// kT of the Brownian motion; 0 where there is none.
+double thermal_energy(const Scene& scene);
+
+/// How the rods of a scene swim.
+Swimming swimming_of(const Scene& scene);
+
+/// D_t of the fastest rod of an assembly.
+double fastest_diffusion(double kT, const Mobility& mobility, std::size_t rod_count);
+
+/// How long a free swimmer keeps its direction, 1/(2 D_R + tumble rate + 2 reversal rate): of the first `rod_count`
+/// rods the one that does so longest; infinite without rotation, tumbles and reversals.
+double persistence_time(const Scene& scene, const Mobility& mobility, std::size_t rod_count);
+
+/// `output.active_stress_lag`, a time; "auto": 5 persistence times, or a tenth of `time.production` where those are
+/// infinite.
+double active_stress_lag(const Scene& scene, const Mobility& mobility, std::size_t rod_count);
+
+}  // namespace jostle

@@ -1,0 +1,109 @@
+#include "jostle/scene/unused_keys.hpp"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "jostle/scene/refusal.hpp"
+#include "jostle/scene/scene_keys.hpp"
+
+namespace jostle {
+
+namespace {
+
+std::string in_words(bool value) {
+    return value ? "true" : "false";
+}
+std::string in_words(const std::string& value) {
+    return value;
+}
+std::string in_words(const Vec3& value) {
+    return text(value);
+}
+template <class Value>
+std::string in_words(const Value& value) {
+    if constexpr (std::is_enum_v<Value>)
+        return std::string(word_of(value));
+    else
+        return fmt::format("{}", value);
+}
+template <class Value>
+std::string in_words(const std::optional<Value>& value) {
+    return value ? in_words(*value) : "auto";
+}
+std::string in_words(const std::array<bool, 3>& value) {
+    return fmt::format("[{}, {}, {}]", value[0], value[1], value[2]);
+}
+
+/// The values of all keys, in their order.
+std::vector<std::pair<std::string, std::string>> values_of(const Scene& scene) {
+    std::vector<std::pair<std::string, std::string>> values;
+    for_each_key(scene, [&](const char* table, const char* name, const auto& member, const auto&) {
+        values.emplace_back(full_key(table, name), in_words(member));
+    });
+    return values;
+}
+
+}  // namespace
+
+std::vector<UnusedKey> unused_keys(const Scene& scene) {
+    std::vector<UnusedKey> unused;
+    const StartKind start = scene.rods.start;
+    const std::string with = fmt::format("is not used with rods.start = \"{}\"", word_of(start));
+    if (scene.box.edges)
+        unused.push_back({"box.shape", "is not used with box.edges, which give the shape", "Remove shape or edges"});
+    if (start == StartKind::file)
+        for (const char* key : {"rods.length_deviation", "rods.diameter_deviation"})
+            unused.push_back(
+                {key, with + ": the file tells", "Give the file columns length and diameter, or remove it"});
+    if (start != StartKind::file) unused.push_back({"rods.file", with, "Set start = \"file\", or remove file"});
+    if (start != StartKind::aligned && start != StartKind::lattice)
+        unused.push_back({"rods.axis", with, "Set start = \"aligned\", or remove axis"});
+    if (scene.motion.self_propulsion == 0.0)
+        for (const char* key : {"motion.self_propulsion_deviation", "motion.tumble_rate", "motion.tumble_time",
+                                "motion.reversal_rate", "output.active_stress_lag"})
+            unused.push_back({key, "is not used with motion.self_propulsion = 0: nothing swims",
+                              "Set self_propulsion, or remove it"});
+    else if (scene.motion.tumble_rate == 0.0)
+        unused.push_back({"motion.tumble_time", "is not used with motion.tumble_rate = 0",
+                          "Set tumble_rate, or remove tumble_time"});
+    const bool soft = scene.contact.model == ContactModel::wca;
+    const std::string with_model = fmt::format("is not used with contact.model = \"{}\"", word_of(scene.contact.model));
+    if (!soft) unused.push_back({"contact.energy", with_model, "Set model = \"wca\", or remove energy"});
+    if (soft)
+        for (const char* key : {"contact.brownian_correction", "contact.range", "solver.method", "solver.warm_start",
+                                "solver.step_rule", "solver.residual", "solver.tolerance", "solver.max_iterations"})
+            unused.push_back({key, with_model + ": there is no contact problem", "Remove it"});
+    if (scene.growth.rate == 0.0)
+        for (const char* key : {"growth.rate_deviation", "growth.division", "growth.division_length",
+                                "growth.division_deviation", "growth.daughters", "growth.stall_force",
+                                "growth.stall_memory", "growth.death_rate", "growth.division_every"})
+            unused.push_back({key, "is not used without growth.rate", "Add rate under [growth], or remove it"});
+    else if (!scene.growth.stall_force)
+        unused.push_back({"growth.stall_memory", "is not used without growth.stall_force: nothing stalls",
+                          "Set stall_force, or remove stall_memory"});
+    if (scene.output.trajectory_every == 0)
+        unused.push_back({"output.stress_per_rod", "is not used without output.trajectory_every: there are no frames",
+                          "Set trajectory_every, or remove it"});
+    if (scene.output.field_every == 0)
+        unused.push_back({"output.field_spacing", "is not used without output.field_every: there is no field",
+                          "Set field_every, or remove it"});
+    if (scene.springs.file.empty())
+        unused.push_back({"springs.file", "names no file", "Name a CSV file of springs, or remove [springs]"});
+    if (start == StartKind::file && scene.rods.count == 0)
+        unused.push_back({"rods.count", with + ": the file tells", "Remove count"});
+    return unused;
+}
+
+void refuse_unused_keys(const Scene& scene) {
+    const auto values = values_of(scene), defaults = values_of(Scene{});
+    for (const UnusedKey& unused : unused_keys(scene))
+        for (std::size_t k = 0; k < values.size(); ++k)
+            if (values[k].first == unused.key && values[k].second != defaults[k].second)
+                refuse(unused.key, values[k].second, unused.reason, "", unused.suggestion);
+}
+
+}  // namespace jostle

@@ -1,0 +1,242 @@
+#include "jostle/scene/validate_scene.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "jostle/motion/tumbles.hpp"
+#include "jostle/rods/rods.hpp"
+#include "jostle/scene/refusal.hpp"
+#include "jostle/scene/rod_size.hpp"
+#include "jostle/scene/scene_box.hpp"
+#include "jostle/scene/scene_ranges.hpp"
+#include "jostle/scene/step_limits.hpp"
+#include "jostle/scene/unused_keys.hpp"
+
+namespace jostle {
+
+namespace {
+
+/// b = 2 ln(2 L/D) - 1 > 0, theory, eq. 2.10: below, the drag of a slender body across and along the axis is negative.
+const double slender_limit = std::exp(0.5) / 2.0;
+/// Of the standard deviation of lengths and diameters to their mean: the smallest is a quarter of it.
+constexpr double largest_deviation = 0.25;
+
+void check_start(const Scene& scene) {
+    if (scene.rods.start == StartKind::file && scene.rods.file.empty())
+        refuse("rods.file", "", "is missing: start = \"file\" reads the rods from a file", "the name of a file",
+               "Add file = \"rods.csv\" under [rods]");
+    if (norm(scene.rods.axis) == 0.0)
+        refuse("rods.axis", text(scene.rods.axis), "has no direction", "a vector that is not zero", "Use [1, 0, 0]");
+}
+
+/// Deviations that leave every rod a length and a diameter, and that the start can place.
+void check_deviations(const Scene& scene) {
+    const Scene::RodsTable& rods = scene.rods;
+    const auto check = [&](const char* key, double deviation, double mean) {
+        if (deviation == 0.0) return;
+        if (rods.start == StartKind::lattice)
+            refuse(key, text(deviation), "is given with start = \"lattice\", which places rods that are alike", "0",
+                   "Use start = \"aligned\" or \"random\"");
+        if (!(deviation <= largest_deviation * mean))
+            refuse(key, text(deviation), fmt::format("is large against the mean, {}", mean),
+                   fmt::format("at most {}, a quarter of the mean", rounded(largest_deviation * mean)), "");
+    };
+    check("rods.length_deviation", rods.length_deviation, rods.length);
+    check("rods.diameter_deviation", rods.diameter_deviation, rods.diameter);
+}
+
+void check_box_given_once(const Scene& scene) {
+    if (scene.box.volume_fraction && scene.box.edges)
+        refuse("box.edges", text(*scene.box.edges),
+               fmt::format("is given beside box.volume_fraction = {}", *scene.box.volume_fraction),
+               "one of the two, not both", "Keep one of them; the other follows from it");
+    if (!scene.box.volume_fraction && !scene.box.edges)
+        refuse("box.volume_fraction", "", "is missing, and so is box.edges: the size of the box is not known",
+               "one of the two", "Add volume_fraction = 0.2 under [box]");
+}
+
+void check_packing(const Scene& scene) {
+    const double fraction = volume_fraction(scene);
+    const double aspect_ratio = scene.rods.length / scene.rods.diameter;
+    const bool given = scene.box.volume_fraction.has_value();
+    const std::string key = given ? "box.volume_fraction" : "box.edges";
+    const std::string value = given ? text(fraction) : text(*scene.box.edges);
+    const std::string volume = given ? "" : fmt::format(" (volume fraction {})", rounded(fraction));
+    const double densest = close_packing(aspect_ratio);
+    if (!(fraction <= densest * (1.0 + 1e-12)))  // edges computed for close packing miss it by rounding
+        refuse(key, value,
+               fmt::format("cannot be packed{}: the densest packing of rods of L/D = {} fills {}", volume,
+                           rounded(aspect_ratio), rounded(densest)),
+               fmt::format("a volume fraction of at most {}", rounded(densest)),
+               given ? "Lower the volume fraction" : "Enlarge the box or use fewer rods");
+    const double limit = random_start_limit(aspect_ratio);
+    if (scene.rods.start == StartKind::random && fraction > limit)
+        refuse(key, value,
+               fmt::format("is too dense for a random start{} with rods of L/D = {}", volume, rounded(aspect_ratio)),
+               fmt::format("a volume fraction of at most {}", rounded(limit)),
+               "Use start = \"aligned\" or \"lattice\", or a lower volume fraction");
+}
+
+void check_motion(const Scene& scene) {
+    const double rate = scene.motion.tumble_rate;
+    const double longest = Tumbles::largest_share / rate;
+    if (rate > 0.0 && scene.motion.tumble_time && !(*scene.motion.tumble_time <= longest))
+        refuse("motion.tumble_time", text(*scene.motion.tumble_time),
+               fmt::format("leaves rods no time to swim between tumbles: motion.tumble_rate = {}", rate),
+               fmt::format("at most {}", rounded(longest)), "Lower tumble_time or tumble_rate");
+    if (!scene.time.step || scene.rods.start == StartKind::file) return;  // is looked at once there are rods
+    Rods one;
+    one.push_back(0, {}, {1, 0, 0}, scene.rods.length, scene.rods.diameter);
+    require_slow_swimmers(scene, one, *scene.time.step);
+}
+
+void check_mobility(const Scene& scene) {
+    const double aspect_ratio =
+        (scene.rods.length - farthest_deviation * scene.rods.length_deviation) / largest_diameter(scene);
+    if (scene.mobility.model == MobilityModel::slender_body && !(aspect_ratio > slender_limit))
+        refuse("mobility.model", "\"slender_body\"",
+               fmt::format("gives rods of L/D = {} a negative drag: it holds for slender rods only",
+                           rounded(aspect_ratio)),
+               fmt::format("L/D greater than {:.3f}", slender_limit),
+               "Use model = \"capsule\", which holds for every L/D");
+}
+
+/// L/D of the shortest cells that divisions of mothers of this diameter make, but for one in a million. Of adders and
+/// timers half of what a mother deviates by is handed on, so that lengths deviate by sqrt(1 + 1/4 + 1/16 + ...) of what
+/// is added.
+double shortest_daughter(const Scene& scene, double diameter) {
+    const GrowthLaw& growth = scene.growth;
+    const double added = 0.5 * (growth.division_length + diameter);
+    double deviation = growth.division_deviation * added * std::sqrt(4.0 / 3.0);
+    if (growth.division == DivisionRule::sizer) deviation = growth.division_deviation * growth.division_length;
+    if (growth.division == DivisionRule::timer)
+        deviation = std::hypot(growth.division_deviation, growth.rate_deviation) * added * std::sqrt(4.0 / 3.0);
+    const double mother = growth.division_length - 5.0 * deviation;
+    return std::max(0.0, 0.5 * (mother - diameter) / diameter);
+}
+
+void check_springs(const Scene& scene) {
+    if (!scene.springs.file.empty() && scene.growth.rate > 0.0)
+        refuse("springs.file", scene.springs.file,
+               "springs hold rods that stay, and with growth.rate cells divide and die", "no springs, or no growth",
+               "Remove [springs] or [growth]");
+}
+
+void check_solver(const Scene& scene) {
+    if (scene.contact.model == ContactModel::wca) {
+        if (!scene.contact.energy && scene.fluid.kT == 0.0)
+            refuse("contact.energy", "", "is missing, and fluid.kT = 0, which would stand for it", "an energy above 0",
+                   "Add energy = 1.0 under [contact]");
+        return;
+    }
+    if (scene.solver.residual == ResidualKind::length && scene.solver.tolerance >= scene.contact.overlap_limit)
+        refuse("contact.overlap_limit", text(scene.contact.overlap_limit),
+               fmt::format("is not larger than the overlap that the solver leaves, solver.tolerance = {}",
+                           scene.solver.tolerance),
+               fmt::format("greater than {}", scene.solver.tolerance), "Lower solver.tolerance");
+}
+
+void check_rms_step(const Scene& scene) {
+    if (!scene.time.rms_step) return;
+    const char* reason = !scene.motion.brownian ? "motion.brownian = false" : "fluid.kT = 0";
+    if (!scene.motion.brownian || scene.fluid.kT == 0.0)
+        refuse("time.rms_step", text(*scene.time.rms_step),
+               fmt::format("measures the step by the Brownian motion, and there is none: {}", reason), "",
+               "Give time.step instead");
+    if (scene.growth.rate > 0.0)
+        refuse("time.rms_step", text(*scene.time.rms_step),
+               "measures the step by the Brownian motion of rods, which changes as they grow", "",
+               "Give time.step instead");
+}
+
+void check_time(const Scene& scene) {
+    if (scene.time.step && scene.time.rms_step)
+        refuse("time.rms_step", text(*scene.time.rms_step),
+               fmt::format("is given beside time.step = {}", *scene.time.step), "one of the two, not both",
+               "Keep one of them");
+    if (!scene.time.step && !scene.time.rms_step)
+        refuse("time.step", "", "is missing, and so is time.rms_step: the time step is not known", "one of the two",
+               "Add step = 1e-3 under [time]");
+    check_rms_step(scene);
+    if (!scene.time.step) return;
+    require_short_growth(scene, scene.rods.diameter, *scene.time.step);
+    require_countable_steps(scene, *scene.time.step);
+}
+
+}  // namespace
+
+void validate(const Scene& scene) {
+    refuse_unused_keys(scene);
+    require_ranges(scene);
+    check_start(scene);
+    check_box_given_once(scene);
+    if (scene.rods.start != StartKind::file) {
+        check_deviations(scene);
+        check_packing(scene);
+        validate_box(scene, rods_volume(scene), largest_diameter(scene));
+        validate_contact_range(scene, largest_length(scene) + largest_diameter(scene));
+    }
+    check_motion(scene);
+    check_mobility(scene);
+    validate_growth(scene, largest_diameter(scene));
+    check_springs(scene);
+    check_solver(scene);
+    check_time(scene);
+}
+
+void validate_box(const Scene& scene, double rods_volume, double largest_diameter) {
+    const Vec3 edges = box_edges(scene, rods_volume);
+    const bool given = scene.box.edges.has_value();
+    const std::string key = given ? "box.edges" : "box.volume_fraction";
+    const std::string value = given ? text(edges) : text(*scene.box.volume_fraction);
+    for (int k = 0; k < 3; ++k) {
+        if (edges[k] >= largest_diameter) continue;
+        refuse(key, value,
+               fmt::format("makes the box thinner than a rod's diameter: edge {} is {}", "xyz"[k], rounded(edges[k])),
+               fmt::format("edges of at least {}", largest_diameter),
+               given ? "Enlarge that edge" : "Use more rods, a lower volume fraction or a box.shape nearer to a cube");
+    }
+    const double fraction = volume_fraction(scene, rods_volume);
+    if (!(fraction < 1.0))
+        refuse(key, value,
+               fmt::format("leaves the rods no room: their volume is {} times that of the box", rounded(fraction)),
+               "a volume fraction less than 1", "Enlarge the box or use fewer rods");
+}
+
+void validate_contact_range(const Scene& scene, double longest) {
+    const bool grows = scene.growth.rate > 0.0;
+    const double cell = grows ? scene.growth.division_length + largest_diameter(scene) : 0.0;
+    const double most = std::max(longest, cell);
+    if (!scene.contact.range || *scene.contact.range <= most) return;
+    refuse("contact.range", text(*scene.contact.range),
+           fmt::format("reaches beyond what a rod can touch: the longest measures {} from end to end", rounded(most)),
+           fmt::format("at most {}", rounded(most)), "Use \"auto\"");
+}
+
+void validate_growth(const Scene& scene, double largest_diameter) {
+    const GrowthLaw& growth = scene.growth;
+    if (growth.rate == 0.0) return;
+    if (!(growth.division_length > largest_diameter))
+        refuse(
+            "growth.division_length", text(growth.division_length),
+            fmt::format("is not above what two daughters need: each gets half of what the length exceeds the diameter, "
+                        "{}, by",
+                        largest_diameter),
+            fmt::format("greater than {}", largest_diameter), "");
+    if (scene.rods.start != StartKind::file && !(growth.division_length > scene.rods.length))
+        refuse("growth.division_length", text(growth.division_length),
+               fmt::format("is not above rods.length = {}, at which cells start", scene.rods.length),
+               fmt::format("greater than {}", scene.rods.length), "");
+    const double daughter = shortest_daughter(scene, largest_diameter);
+    if (scene.mobility.model == MobilityModel::slender_body && !(daughter > slender_limit))
+        refuse("growth.division_length", text(growth.division_length),
+               fmt::format("makes daughters as short as L/D = {}, too short for the mobility \"slender_body\"",
+                           rounded(daughter)),
+               fmt::format("greater than {} where nothing deviates",
+                           rounded((2.0 * slender_limit + 1.0) * largest_diameter)),
+               "Or use model = \"capsule\", which holds for every L/D");
+}
+
+}  // namespace jostle

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "jostle/scene/scene_keys.hpp"
+#include "jostle/scene_file/toml_document.hpp"
+
+namespace jostle {
+
+/// The type of a TOML value in words, as "a whole number".
+std::string type_name(const toml::node& node);
+
+/// Reads the value of one key into its member of the scene; the overloads follow the member's type.
+///
+/// Checks the type, the words and the units; ranges are left to `validate`. Numbers may carry units in the micro
+/// system. Throws InputError with the place and the value as written.
+class KeyReader {
+public:
+    KeyReader(const TomlDocument& document, UnitSystem units, std::string key)
+        : document_(document), units_(units), key_(std::move(key)) {}
+
+    void read(const toml::node& node, std::string& member, const Plain&) const;
+    void read(const toml::node& node, bool& member, const Plain&) const;
+    void read(const toml::node& node, std::array<bool, 3>& member, const Plain&) const;
+    void read(const toml::node& node, std::uint64_t& member, const Count& count) const;
+    void read(const toml::node& node, double& member, const Quantity& quantity) const;
+    void read(const toml::node& node, Vec3& member, const Quantity& quantity) const;
+
+    template <class Choice>
+    requires std::is_enum_v<Choice>
+    void read(const toml::node& node, Choice& member, const Plain&) const {
+        std::vector<std::string> all;
+        for (const auto& [word, choice] : words(Choice{})) all.emplace_back(word);
+        const std::string given = word(node, all);
+        for (const auto& [word, choice] : words(Choice{}))
+            if (word == given) member = choice;
+    }
+
+    template <class Number>
+    void read(const toml::node& node, std::optional<Number>& member, const Quantity& quantity) const {
+        member.reset();
+        if (quantity.automatic && node.is_string() && node.as_string()->get() == "auto") return;
+        read(node, member.emplace(), quantity);
+    }
+
+private:
+    [[noreturn]] void refuse(const toml::node& node, std::string problem, std::string allowed,
+                             std::string suggestion) const;
+    [[noreturn]] void refuse_type(const toml::node& node, const std::string& expected) const;
+    std::string word(const toml::node& node, const std::vector<std::string>& all) const;
+    const toml::array& three(const toml::node& node, const std::string& example) const;
+    std::string allowed(const Quantity& quantity) const;
+    double with_unit(const toml::node& node, const Quantity& quantity) const;
+
+    const TomlDocument& document_;
+    UnitSystem units_;
+    std::string key_;
+};
+
+}  // namespace jostle

@@ -1,0 +1,144 @@
+#include "jostle/scene_file/rods_of_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "jostle/disk/durable_file.hpp"
+#include "jostle/error/input_error.hpp"
+#include "jostle/error/one_line.hpp"
+#include "jostle/scene/scene_box.hpp"
+#include "jostle/scene/step_limits.hpp"
+#include "jostle/scene/validate_scene.hpp"
+#include "jostle/scene_file/rods_file.hpp"
+#include "jostle/scene_file/springs_file.hpp"
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/start.hpp"
+
+namespace jostle {
+
+namespace {
+
+constexpr double most_edges_away = 1e6;
+
+/// The file that a key of the scene names, relative to the scene's folder. Errors: InputError if it is not there.
+std::filesystem::path named_file(const char* key, const std::string& name, const std::filesystem::path& scene_path) {
+    const std::filesystem::path file = scene_path.parent_path() / name;  // an absolute path replaces the folder
+    if (file_exists(file.string())) return file;
+    throw InputError(
+        {.key = key,
+         .value = "\"" + name + "\"",
+         .problem = fmt::format("there is no such file: {}", on_one_line(file.string(), longest_file_name)),
+         .suggestion = "Check the name, which counts from the scene's folder"});
+}
+
+/// The keys that a file with the rods' own speeds needs, and does not go with.
+void require_swimming(const Scene& scene, const std::string& file) {
+    const auto refuse = [&](const char* key, double value, const char* problem, const char* suggestion) {
+        throw InputError({.key = key,
+                          .value = fmt::format("{}", value),
+                          .problem = fmt::format("{}: {} has a column speed", problem, file),
+                          .suggestion = suggestion});
+    };
+    const Scene::MotionTable& motion = scene.motion;
+    if (motion.self_propulsion == 0.0)
+        refuse("motion.self_propulsion", motion.self_propulsion, "says that nothing swims",
+               "Set it to the mean speed, or remove the column");
+    if (motion.self_propulsion_deviation != 0.0)
+        refuse("motion.self_propulsion_deviation", motion.self_propulsion_deviation, "says that speeds are drawn",
+               "Remove it, or the column");
+}
+
+/// Tolerances are lengths in units of rods.diameter.
+void require_diameter(const Scene& scene, const std::string& file, double thinnest, double thickest) {
+    if (scene.rods.diameter >= thinnest && scene.rods.diameter <= thickest) return;
+    throw InputError({.key = "rods.diameter",
+                      .value = fmt::format("{}", scene.rods.diameter),
+                      .problem = fmt::format("is no diameter of the rods in {}, and overlaps are judged by it", file),
+                      .allowed = fmt::format("{} to {}", thinnest, thickest),
+                      .suggestion = "Set it to the mean of the file's diameters"});
+}
+
+/// Of all rods, from end to end.
+double longest_of(const Rods& rods) {
+    double longest = 0.0;
+    for (std::size_t i = 0; i < rods.size(); ++i) longest = std::max(longest, rods.length[i] + rods.diameter[i]);
+    return longest;
+}
+
+/// Farther away, doubles would no longer tell where in the box a rod is.
+void require_near(const Rods& rods, const Box& box, const std::string& file) {
+    const double farthest = most_edges_away * std::max({box.edges.x, box.edges.y, box.edges.z});
+    for (std::size_t i = 0; i < rods.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            if (std::fabs(rods.centre[i][k]) > farthest)
+                throw InputError(
+                    {.key = file,
+                     .value = fmt::format("rod {}", rods.id[i]),
+                     .problem = fmt::format("lies far outside the box: {} = {}", "xyz"[k], rods.centre[i][k]),
+                     .allowed = fmt::format("-{0:g} to {0:g}", farthest)});
+}
+
+}  // namespace
+
+std::optional<Rods> rods_from_file(const Scene& scene, const std::filesystem::path& scene_path) {
+    if (scene.rods.start != StartKind::file) return std::nullopt;
+    const std::filesystem::path file = named_file("rods.file", scene.rods.file, scene_path);
+    Rods rods = read_rods(file.string(), scene.rods.length, scene.rods.diameter);
+    if (scene.rods.count != 0 && scene.rods.count != rods.size())
+        throw InputError({.key = "rods.count",
+                          .value = std::to_string(scene.rods.count),
+                          .problem = "the file " + file.string() + " holds " + std::to_string(rods.size()) + " rods",
+                          .suggestion = "Leave rods.count out to take all of the file"});
+    if (!rods.speed.empty()) require_swimming(scene, file.string());
+    const auto [thinnest, thickest] = std::minmax_element(rods.diameter.begin(), rods.diameter.end());
+    require_diameter(scene, file.string(), *thinnest, *thickest);
+    validate_box(scene, total_volume(rods), *thickest);
+    validate_growth(scene, *thickest);
+    validate_contact_range(scene, longest_of(rods));
+    require_near(rods, box_of(scene, rods), file.string());
+    return rods;
+}
+
+Box box_of(const Scene& scene, const std::optional<Rods>& rods) {
+    const double volume = rods ? total_volume(*rods) : rods_volume(scene);
+    return {box_edges(scene, volume), scene.box.periodic};
+}
+
+std::string springs_path(const Scene& scene, const std::filesystem::path& scene_path) {
+    return scene.springs.file.empty() ? "" : named_file("springs.file", scene.springs.file, scene_path).string();
+}
+
+std::vector<Spring> springs_from_file(const Scene& scene, const std::filesystem::path& scene_path, const Rods& rods) {
+    if (scene.springs.file.empty()) return {};
+    std::vector<double> length(rods.size());  // by id: where nothing grows, ids are 0 to N - 1
+    for (std::size_t i = 0; i < rods.size(); ++i) length.at(rods.id[i]) = rods.length[i];
+    return read_springs(springs_path(scene, scene_path), rods.size(), [&](std::uint64_t id) { return length[id]; });
+}
+
+Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_path, const AnnealingWatch& watch) {
+    return in_scene_file(scene_path, [&] {
+        const auto from_file = rods_from_file(scene, scene_path);
+        const Box box = box_of(scene, from_file);
+        Beginning beginning = {box, {}, {}, {}};
+        beginning.rods = make_start(scene, box, from_file, [&](const Annealing& now) {
+            beginning.annealing = now;
+            if (watch) watch(now);
+        });
+        const auto mobility = make_mobility(scene, beginning.rods);
+        const double step = time_step(scene, *mobility, beginning.rods);
+        require_countable_steps(scene, step);
+        require_slow_swimmers(scene, beginning.rods, step);
+        require_room_between_images(scene, box, *mobility, beginning.rods, step);
+        require_soft_potential(scene, *mobility, beginning.rods, step);
+        make_field(scene, box);  // for what it refuses
+        beginning.springs = springs_from_file(scene, scene_path, beginning.rods);
+        hold_nearest_images(beginning.springs, beginning.rods, box);
+        const auto mobility_of = [&](std::uint64_t id) { return mobility->of_rod(id); };  // at the start rows are ids
+        require_slow_springs(scene, beginning.springs, mobility_of, step);
+        return beginning;
+    });
+}
+
+}  // namespace jostle

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "jostle/error/input_error.hpp"
+#include "jostle/rods/box.hpp"
+#include "jostle/rods/rods.hpp"
+#include "jostle/rods/spring.hpp"
+#include "jostle/scene/scene.hpp"
+#include "jostle/scene_file/scene_reader.hpp"
+#include "jostle/setup/anneal.hpp"
+
+namespace jostle {
+
+/// Rods and box of a scene, before any step.
+struct Beginning {
+    Box box;
+    Rods rods;
+    std::vector<Spring> springs;
+    Annealing annealing;  ///< of a random start
+};
+
+/// Reads the rods file of a scene with start = "file", if it has one; a relative path counts from the scene's folder.
+std::optional<Rods> rods_from_file(const Scene& scene, const std::filesystem::path& scene_path);
+
+/// The box of a scene, for these rods or, if there are none, for those that the scene describes.
+Box box_of(const Scene& scene, const std::optional<Rods>& rods);
+
+/// The springs file of a scene, relative to the scene's folder; empty if it names none. Errors: InputError if the file
+/// is not there.
+std::string springs_path(const Scene& scene, const std::filesystem::path& scene_path);
+
+/// The springs of a scene between these rods, empty where it names none; images are 0. Errors: InputError, DiskError.
+std::vector<Spring> springs_from_file(const Scene& scene, const std::filesystem::path& scene_path, const Rods& rods);
+
+/// What `call()` returns; an InputError of it without a place gets that of its key in the scene.
+template <class Call>
+auto in_scene_file(const std::filesystem::path& scene_path, Call&& call) {
+    try {
+        return call();
+    } catch (const InputError& error) {
+        if (!error.parts().place.file.empty()) throw;
+        throw in_scene_file(scene_path, error);
+    }
+}
+
+/// Makes the start of a scene; `watch` sees how it is annealed. Errors: InputError where the rods do not fit, or move
+/// too fast for the time step.
+Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_path, const AnnealingWatch& watch = {});
+
+}  // namespace jostle

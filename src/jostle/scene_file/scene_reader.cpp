@@ -1,0 +1,157 @@
+#include "jostle/scene_file/scene_reader.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "jostle/disk/durable_file.hpp"
+#include "jostle/error/nearest_word.hpp"
+#include "jostle/scene/scene_keys.hpp"
+#include "jostle/scene/unused_keys.hpp"
+#include "jostle/scene/validate_scene.hpp"
+#include "jostle/scene_file/key_reader.hpp"
+#include "jostle/scene_file/toml_document.hpp"
+#include "jostle/scene_file/unknown_keys.hpp"
+
+namespace jostle {
+
+namespace {
+
+void read_keys(const TomlDocument& document, Scene& scene) {
+    for_each_key(scene, [&](std::string_view table, std::string_view name, auto& member, const auto& spec) {
+        if (const toml::node* node = document.find(table, name))
+            KeyReader(document, scene.units.system, full_key(table, name)).read(*node, member, spec);
+    });
+    const bool brownian_step = scene.motion.brownian && scene.fluid.kT > 0.0 && scene.growth.rate == 0.0;
+    if (!scene.time.step && !scene.time.rms_step && brownian_step) scene.time.rms_step = default_rms_step;
+}
+
+/// A key that has no default, and a value to begin with.
+struct RequiredKey {
+    std::string table, name, example;
+};
+
+void refuse_missing(const TomlDocument& document, const Scene& scene) {
+    std::vector<RequiredKey> required;
+    if (scene.rods.start != StartKind::file) required.push_back({"rods", "count", "2000"});
+    required.push_back({"rods", "length", "5.0"});
+    required.push_back({"time", "production", "50.0"});
+    if (scene.units.system == UnitSystem::micro) {
+        required.push_back({"rods", "diameter", "\"1 um\""});
+        required.push_back({"fluid", "viscosity", "\"1e-3 Pa s\""});
+        required.push_back({"fluid", "kT", "\"0.00411 pN um\""});
+    }
+    if (scene.growth.rate > 0.0)
+        required.push_back(
+            {"growth", "division_length", fmt::format("{:.6g}", 2.0 * scene.rods.length + scene.rods.diameter)});
+    for (const auto& [table, name, example] : required)
+        if (!document.find(table, name))
+            throw InputError({table + "." + name, "", "is missing", "",
+                              fmt::format("Add {} = {} under [{}]", name, example, table),
+                              document.place_of(table + "." + name)});
+}
+
+void refuse_unused(const TomlDocument& document, const Scene& scene) {
+    for (const auto& [key, reason, suggestion] : unused_keys(scene)) {
+        const std::size_t dot = key.find('.');
+        const toml::node* node = document.find(key.substr(0, dot), key.substr(dot + 1));
+        if (node)
+            throw InputError(
+                {key, document.written(node->source()), reason, "", suggestion, document.place(node->source())});
+    }
+}
+
+/// The error with the place of its key and its value as the user wrote it.
+InputError with_place(const TomlDocument& document, const InputError& error) {
+    InputError::Parts parts = error.parts();
+    const auto [table, name] = parts_of_key(parts.key);
+    if (const toml::node* node = document.find(table, name)) parts.value = document.written(node->source());
+    parts.place = document.place_of(parts.key);
+    return InputError(parts);
+}
+
+[[noreturn]] void refuse_file(const std::filesystem::path& path, std::string problem, std::string suggestion) {
+    throw InputError({"scene", "", std::move(problem), "a TOML file", std::move(suggestion), {path.string(), 0, 0}});
+}
+
+/// A file in the folder of `path` with nearly its name.
+std::string suggestion_for_missing(const std::filesystem::path& path) {
+    std::vector<std::string> names;
+    std::error_code error;
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+        names.push_back(entry->path().filename().string());
+    std::sort(names.begin(), names.end());  // the order of a folder is arbitrary
+    const std::string near = did_you_mean(path.filename().string(), names);
+    return near.empty() ? "Check the name and the folder" : near;
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& path) {
+    return parse_scene(read_scene_text(path), path.string());
+}
+
+std::string read_scene_text(const std::filesystem::path& path) {
+    constexpr std::size_t largest = 1 << 20;
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error))
+        refuse_file(path, "is a directory", "Give the scene file, as " + (path / "scene.toml").string());
+    if (!std::filesystem::exists(path, error)) refuse_file(path, "there is no such file", suggestion_for_missing(path));
+    std::string text, block;
+    try {
+        ReadFile file(path.string());
+        for (file.read_up_to(largest, block); !block.empty() && text.size() <= largest; file.read_up_to(4096, block))
+            text += block;
+    } catch (const DiskError& failure) {
+        refuse_file(path, fmt::format("cannot be read: {}", std::strerror(failure.error_number())),
+                    "Check who may read it, and the disk");
+    } catch (const InputError& refusal) {
+        refuse_file(path, refusal.parts().problem, refusal.parts().suggestion);
+    }
+    if (text.size() > largest)
+        refuse_file(path, "is larger than 1 MiB, too large for a scene", "Give the scene, not an output of a run");
+    return text;
+}
+
+InputError in_scene_file(const std::filesystem::path& path, const InputError& error) {
+    if (!is_scene_key(error.parts().key)) return error.with_place({path.string()});
+    try {
+        return with_place(TomlDocument(read_scene_text(path), path.string()), error);
+    } catch (const InputError&) {  // what was read is not there any more, as of a pipe
+        return error.with_place({path.string()});
+    }
+}
+
+Scene parse_scene(std::string_view text, std::string file_name) {
+    const TomlDocument document(text, file_name);
+    if (document.root().empty())
+        throw InputError({"scene",
+                          "",
+                          "is empty: there is no key in it",
+                          "",
+                          "Begin with the scene in the README",
+                          {file_name, 1, 1}});
+    refuse_unknown_keys(document);
+    Scene scene;
+    read_keys(document, scene);
+    refuse_missing(document, scene);
+    refuse_unused(document, scene);
+    try {
+        validate(scene);
+    } catch (const InputError& error) {
+        throw with_place(document, error);
+    }
+    // A growing population has no equilibrium to wait for.
+    if (scene.growth.rate > 0.0 && !scene.time.equilibration) scene.time.equilibration = 0.0;
+    return scene;
+}
+
+bool has_sweep(std::string_view text) {
+    return TomlDocument(text, "").root().contains(sweep_table);
+}
+
+}  // namespace jostle

@@ -1,0 +1,35 @@
+#include "jostle/setup/free_clocks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "jostle/scene/scene_motion.hpp"
+
+namespace jostle {
+
+FreeClocks free_clocks(const Scene& scene, const Mobility& mobility, const Rods& rods) {
+    FreeClocks clocks;
+    const bool turn = std::any_of(rods.length.begin(), rods.length.end(), [](double length) { return length > 0.0; });
+    const double persistence = turn ? persistence_time(scene, mobility, rods.size()) : 0.0;
+    if (std::isfinite(persistence)) clocks.rotation = persistence;
+    const double kT = thermal_energy(scene);
+    for (std::size_t i = 0; kT > 0.0 && i < rods.size(); ++i) {
+        const RodMobility rod = mobility.of_rod(i);
+        const double diffusion = kT * (rod.parallel + 2.0 * rod.perpendicular) / 3.0;
+        clocks.diffusion = std::max(clocks.diffusion, rods.diameter[i] * rods.diameter[i] / diffusion);
+    }
+    return clocks;
+}
+
+double crowding_slowdown(double volume_fraction, double aspect_ratio) {
+    constexpr double slowest = 100.0, spinodal = 4.0;
+    const double phi = std::min(volume_fraction, 0.7), volume = std::numbers::pi * (aspect_ratio / 4.0 + 1.0 / 6.0);
+    const double crowd = std::numbers::pi / 4.0 * (phi / volume) * aspect_ratio * aspect_ratio * (1.0 - 0.75 * phi) /
+                         ((1.0 - phi) * (1.0 - phi));
+    const double collective = 1.0 / std::max(0.1, std::fabs(1.0 - crowd / spinodal));
+    const double neighbours = crowd < spinodal ? std::exp(8.0 * phi * phi) : 1.0;
+    return std::clamp(collective * neighbours, 1.0, slowest);
+}
+
+}  // namespace jostle

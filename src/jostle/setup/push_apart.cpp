@@ -1,0 +1,79 @@
+#include "jostle/setup/push_apart.hpp"
+
+#include <algorithm>
+
+#include "jostle/contact/find_contacts.hpp"
+#include "jostle/contact_problem/contact_solver.hpp"
+#include "jostle/math/rotation.hpp"
+#include "jostle/parallel/parallel_for.hpp"
+
+namespace jostle {
+
+namespace {
+
+// All lengths in diameters of the thinnest rod.
+constexpr double opened_each_round = 0.1;
+constexpr double free_space = 1e-3;
+constexpr double reach = 0.1;
+constexpr double largest_move = 0.2;  ///< of any point of a rod in a round
+constexpr double tolerance = 1e-4;
+constexpr int most_rounds = 2000;
+constexpr double rounding = 1e-12;  ///< overlaps that are none: of a rod with its own image in a box of just its width
+constexpr std::uint64_t iterations_each_round = 300;
+
+/// Moves the rods by the velocities (time step 1), all slowed down alike so that none goes too far.
+void move(Rods& rods, const Box& box, const ContactSolution& solution, double limit) {
+    const double fastest = parallel_max(solution.rods.size(), 0.0, [&](std::size_t place) {
+        const auto& [linear, turning] = solution.velocities[place];
+        return norm(linear) + 0.5 * rods.length[solution.rods[place]] * norm(turning);
+    });
+    const double fraction = fastest > limit ? limit / fastest : 1.0;
+    parallel_for(solution.rods.size(), [&](std::size_t place) {
+        const std::uint32_t row = solution.rods[place];
+        const auto& [linear, turning] = solution.velocities[place];
+        rods.centre[row] += fraction * linear;
+        box.wrap(rods.centre[row], rods.image[row]);
+        rods.axis[row] = rotated(rods.axis[row], fraction * cross(rods.axis[row], turning));
+    });
+}
+
+}  // namespace
+
+DragMobility pushing_mobility(bool turning) {
+    return DragMobility([turning](double length, double diameter) {
+        return RodMobility{1.0, 1.0, turning ? 12.0 / (length * length + diameter * diameter) : 0.0};
+    });
+}
+
+PushApartResult push_apart(Rods& rods, const Box& box, Mobility& mobility) {
+    PushApartResult result;
+    mobility.update(rods);
+    const double thinnest = rods.size() == 0 ? 1.0 : *std::min_element(rods.diameter.begin(), rods.diameter.end());
+    NeighbourList neighbours(0.5 * thinnest);
+    const std::vector<double> reaches(rods.size(), reach * thinnest);
+    Contacts contacts;
+    for (;; ++result.rounds) {
+        neighbours.update(rods, box, reaches);
+        result.overlap = find_contacts(rods, box, neighbours, reaches, contacts);
+        result.apart = result.overlap <= rounding * thinnest;
+        if (result.apart || result.rounds == most_rounds) return result;
+
+        std::vector<double> b(contacts.size());
+        parallel_for(b.size(), [&](std::size_t l) {
+            b[l] = std::max(contacts.contact[l].gap - free_space * thinnest, -opened_each_round * thinnest);
+        });
+        const ContactMatrix contact_matrix(contacts, rods.size());
+        const DelassusOperator matrix(contact_matrix, rods, mobility);
+        LcpSettings settings;
+        settings.tolerance = tolerance * thinnest;
+        settings.max_iterations = iterations_each_round;
+        // A rough solution still leads apart; only the last rounds need to be, and are, solved to the tolerance.
+        ContactSolution solution;
+        const SolverOutcome outcome =
+            solve_contact_problem({matrix, b, 1.0, {}}, SolverMethod::automatic, settings, solution);
+        if (outcome.status == LcpStatus::not_finite) return result;
+        move(rods, box, solution, largest_move * thinnest);
+    }
+}
+
+}  // namespace jostle

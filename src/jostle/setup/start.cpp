@@ -1,0 +1,168 @@
+#include "jostle/setup/start.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "jostle/error/input_error.hpp"
+#include "jostle/parallel/parallel_for.hpp"
+#include "jostle/rods/space_filling_order.hpp"
+#include "jostle/scene/scene_box.hpp"
+#include "jostle/setup/largest_overlap.hpp"
+#include "jostle/setup/scattered_rods.hpp"
+
+namespace jostle {
+
+namespace {
+
+/// Overlaps below this (in D) in a start read from a file are taken for rounding of the file's decimals.
+constexpr double file_overlap = 1e-3;
+
+Rods at_random(Rods rods, const Box& box, bool turning, const Scene& scene, const AnnealingWatch& watch) {
+    PushApartResult result;
+    result.overlap = largest_overlap(rods, box);
+    if (result.overlap > 0.0 && turning)
+        result = anneal(rods, box, scene.seed, watch);
+    else {
+        DragMobility mobility = pushing_mobility(turning);
+        result = push_apart(rods, box, mobility);
+    }
+    if (!result.apart) {
+        throw InputError(
+            {.key = "rods.start",
+             .value = turning ? "\"random\"" : "\"aligned\"",
+             .problem = fmt::format("{} rods of length {} at volume fraction {:.4f} could not be placed without "
+                                    "overlap: after {} rounds of pushing apart {:.3g} D are left",
+                                    rods.size(), scene.rods.length, total_volume(rods) / box.volume(), result.rounds,
+                                    result.overlap / scene.rods.diameter),
+             .suggestion = turning ? "Use a lower volume fraction, a roomier box, or start = \"aligned\" or \"lattice\""
+                                   : "Use a lower volume fraction, a roomier box, or start = \"lattice\""});
+    }
+    rods.image.assign(rods.size(), Image{0, 0, 0});
+    return reordered(rods, id_order(rods));  // annealing has renumbered them
+}
+
+/// Sites along the rods (direction 0) and across (1, 2).
+struct Grid {
+    std::array<std::uint64_t, 3> sites{};
+    double tightness = INFINITY;  ///< the largest of size/spacing over the directions; 1 means touching
+};
+
+/// The grid with at least `count` sites that leaves the most room in its tightest direction.
+Grid roomiest_grid(std::uint64_t count, const std::array<double, 3>& edges, const std::array<double, 3>& size) {
+    Grid best;
+    const auto most = [&](std::size_t k) {
+        return static_cast<std::uint64_t>(std::clamp(edges[k] / size[k], 1.0, static_cast<double>(count)));
+    };
+    for (std::uint64_t across = 1; across <= most(1); ++across) {
+        // More than one site for each rod would only be tighter.
+        for (std::uint64_t along = 1; along <= most(0) && (along - 1) * across < count; ++along) {
+            const std::uint64_t rest = (count + across * along - 1) / (across * along);
+            Grid grid{{along, across, rest}, 0.0};
+            for (std::size_t k = 0; k < 3; ++k)
+                grid.tightness = std::max(grid.tightness, static_cast<double>(grid.sites[k]) * size[k] / edges[k]);
+            if (grid.tightness < best.tightness) best = grid;
+        }
+    }
+    return best;
+}
+
+/// How the rods of a scene stand in rows.
+struct Lattice {
+    Vec3 axis;
+    std::array<int, 3> direction{};  ///< of the box: along the rods, then across
+    std::array<double, 3> edges{};   ///< of the box, in these directions
+    std::array<std::uint64_t, 3> sites{};
+};
+
+/// Errors: InputError if they do not fit into the box so.
+Lattice lattice_of(const Scene& scene, const Box& box) {
+    const Vec3 axis = normalised(scene.rods.axis);
+    const int along = std::fabs(axis.x) > 0.5 ? 0 : (std::fabs(axis.y) > 0.5 ? 1 : 2);
+    if (std::fabs(axis[along]) < 1.0 - 1e-12)
+        throw InputError({.key = "rods.axis",
+                          .value = fmt::format("[{}, {}, {}]", axis.x, axis.y, axis.z),
+                          .problem = "a lattice needs its rods along an edge of the box",
+                          .allowed = "[1, 0, 0], [0, 1, 0] or [0, 0, 1]",
+                          .suggestion = "For another direction use start = \"aligned\""});
+    Lattice lattice{axis, {along, (along + 1) % 3, (along + 2) % 3}, {}, {}};
+    const double D = scene.rods.diameter;
+    for (std::size_t k = 0; k < 3; ++k) lattice.edges[k] = box.edges[lattice.direction[k]];
+    const Grid grid = roomiest_grid(scene.rods.count, lattice.edges, {scene.rods.length + D, D, D});
+    if (grid.tightness > 1.0)
+        throw InputError(
+            {.key = "rods.start",
+             .value = "\"lattice\"",
+             .problem = fmt::format("{} rods do not fit into the box in rows: the best grid, {} x {} x {}, would "
+                                    "need edges {:.4g} times longer",
+                                    scene.rods.count, grid.sites[0], grid.sites[1], grid.sites[2], grid.tightness),
+             .suggestion = "Use a lower volume fraction or another box.shape"});
+    lattice.sites = grid.sites;
+    return lattice;
+}
+
+Rods rods_in_rows(const Scene& scene, const Box& box) {
+    const auto& [axis, direction, edges, in_row] = lattice_of(scene, box);
+    Rods rods;
+    const std::uint64_t sites = in_row[0] * in_row[1] * in_row[2];
+    for (std::uint64_t id = 0; id < scene.rods.count; ++id) {
+        // Vacant sites, if any, lie evenly among the others.
+        const auto site = static_cast<std::uint64_t>(static_cast<double>(id) * static_cast<double>(sites) /
+                                                     static_cast<double>(scene.rods.count));
+        const std::array<std::uint64_t, 3> cell = {site / (in_row[2] * in_row[1]), site / in_row[2] % in_row[1],
+                                                   site % in_row[2]};
+        Vec3 centre;
+        for (std::size_t k = 0; k < 3; ++k)
+            centre[direction[k]] = (static_cast<double>(cell[k]) + 0.5) * edges[k] / static_cast<double>(in_row[k]);
+        rods.push_back(id, centre, axis, scene.rods.length, scene.rods.diameter);
+    }
+    return rods;
+}
+
+Rods checked(Rods rods, const Box& box, const Scene& scene) {
+    for (std::size_t i = 0; i < rods.size(); ++i) box.wrap(rods.centre[i], rods.image[i]);
+    rods.image.assign(rods.size(), Image{0, 0, 0});
+    const double overlap = largest_overlap(rods, box);
+    const double allowed = file_overlap * scene.rods.diameter;
+    if (overlap > allowed)
+        throw InputError({.key = "rods.file",
+                          .value = "\"" + scene.rods.file + "\"",
+                          .problem = fmt::format("rods of this file overlap by up to {:.3g}", overlap),
+                          .allowed = fmt::format("overlaps up to {:.3g}", allowed)});
+    return rods;
+}
+
+}  // namespace
+
+void require_lattice_fits(const Scene& scene, const Box& box) {
+    if (scene.rods.start == StartKind::lattice) lattice_of(scene, box);
+}
+
+std::string start_warning(const Scene& scene, double volume_fraction) {
+    const double aspect_ratio = scene.rods.length / scene.rods.diameter, limit = isotropic_limit(aspect_ratio);
+    const bool in_equilibrium =
+        scene.motion.brownian && scene.motion.self_propulsion == 0.0 && scene.growth.rate == 0.0;
+    if (scene.rods.start != StartKind::random || !in_equilibrium || volume_fraction <= limit) return "";
+    return fmt::format(
+        "a random start is isotropic, and beyond a volume fraction of about {:.2f} rods of L/D = {:.3g} "
+        "order, which takes longer than most runs: start = \"aligned\" is nearer to equilibrium",
+        limit, aspect_ratio);
+}
+
+Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& from_file, const AnnealingWatch& watch) {
+    parallel::suit_thread_count(parallel::worthwhile_thread_count(scene.rods.count));
+    switch (scene.rods.start) {
+        case StartKind::random:
+            return at_random(scattered_rods(scene, box, std::nullopt), box, true, scene, watch);
+        case StartKind::aligned:
+            return at_random(scattered_rods(scene, box, normalised(scene.rods.axis)), box, false, scene, watch);
+        case StartKind::lattice:
+            return rods_in_rows(scene, box);
+        case StartKind::file:
+            return checked(from_file.value(), box, scene);
+    }
+    return {};
+}
+
+}  // namespace jostle

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "jostle/rods/box.hpp"
+#include "jostle/scene/scene.hpp"
+#include "jostle/setup/anneal.hpp"
+
+namespace jostle {
+
+/// The rods of a scene before the first step, with ids 0, 1, 2, ...; a pure function of the scene (seed included).
+///
+/// "random":  centres and axes uniform, drawn anew where rods overlap; what still overlaps after 100 draws (1000 where
+///            there are few rods) is annealed, all of it: `watch` sees how;
+/// "aligned": centres uniform, all axes along `rods.axis`, pushed apart without turning;
+/// "lattice": rows of rods along `rods.axis` (a direction of the box), evenly spaced;
+/// "file":    `from_file`, checked for overlaps.
+/// Throws InputError where the rods do not fit.
+Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& from_file = std::nullopt,
+                const AnnealingWatch& watch = {});
+
+/// What a user has to know of the start of a scene whose passive rods are to come to equilibrium, at this volume
+/// fraction: one sentence, or none.
+std::string start_warning(const Scene& scene, double volume_fraction);
+
+/// Whether the rods of a scene with start = "lattice" fit into the box in rows, without making them. Errors:
+/// InputError.
+void require_lattice_fits(const Scene& scene, const Box& box);
+
+}  // namespace jostle

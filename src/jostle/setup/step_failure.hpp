@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "jostle/scene/scene.hpp"
+#include "jostle/simulation/simulation.hpp"
+
+namespace jostle {
+
+/// Why a contact problem was not solved, in words.
+std::string description(LcpStatus status);
+
+/// Why a run cannot go on after a step: contacts not resolved, or rods that overlap by more than
+/// `contact.overlap_limit`. Empty after a sound step.
+std::optional<std::string> step_failure(const StepReport& report, const Scene& scene, const Rods& rods);
+
+}  // namespace jostle

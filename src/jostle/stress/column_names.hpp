@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+
+// Names of the columns in which files hold tensors.
+
+namespace jostle {
+
+/// Names of the nine stress columns, by rows of the tensor.
+inline constexpr std::array<const char*, 9> stress_column_names = {"stress_xx", "stress_xy", "stress_xz",
+                                                                   "stress_yx", "stress_yy", "stress_yz",
+                                                                   "stress_zx", "stress_zy", "stress_zz"};
+/// Names of the six columns of the orientation stress, which is symmetric: xx xy xz yy yz zz.
+inline constexpr std::array<const char*, 6> orientation_stress_column_names = {
+    "stress_orientation_xx", "stress_orientation_xy", "stress_orientation_xz",
+    "stress_orientation_yy", "stress_orientation_yz", "stress_orientation_zz"};
+/// Nine of the active stress, where rods swim.
+inline constexpr std::array<const char*, 9> active_stress_column_names = {
+    "stress_active_xx", "stress_active_xy", "stress_active_xz", "stress_active_yx", "stress_active_yy",
+    "stress_active_yz", "stress_active_zx", "stress_active_zy", "stress_active_zz"};
+/// The same of springs, where there are some.
+inline constexpr std::array<const char*, 9> spring_stress_column_names = {
+    "stress_springs_xx", "stress_springs_xy", "stress_springs_xz", "stress_springs_yx", "stress_springs_yy",
+    "stress_springs_yz", "stress_springs_zx", "stress_springs_zy", "stress_springs_zz"};
+/// The same of two other conventions, with `output.stress_conventions`.
+inline constexpr std::array<const char*, 9> centre_of_mass_column_names = {
+    "centre_of_mass_xx", "centre_of_mass_xy", "centre_of_mass_xz", "centre_of_mass_yx", "centre_of_mass_yy",
+    "centre_of_mass_yz", "centre_of_mass_zx", "centre_of_mass_zy", "centre_of_mass_zz"};
+inline constexpr std::array<const char*, 9> centre_line_column_names = {
+    "centre_line_xx", "centre_line_xy", "centre_line_xz", "centre_line_yx", "centre_line_yy",
+    "centre_line_yz", "centre_line_zx", "centre_line_zy", "centre_line_zz"};
+/// Names of the six independent columns of the order tensor, xx xy xz yy yz zz.
+inline constexpr std::array<const char*, 6> order_tensor_column_names = {"order_xx", "order_xy", "order_xz",
+                                                                         "order_yy", "order_yz", "order_zz"};
+
+}  // namespace jostle

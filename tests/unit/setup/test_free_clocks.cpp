@@ -1,0 +1,61 @@
+// Clocks of rods alone, and how much a crowd slows them, against hand calculations and measured decays.
+
+#include <doctest/doctest.h>
+
+#include <numbers>
+
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/free_clocks.hpp"
+
+using namespace jostle;
+
+namespace {
+
+FreeClocks clocks_of(const Scene& scene, double length) {
+    Rods rods;
+    rods.push_back(0, {}, {1, 0, 0}, length, 1.0);
+    return free_clocks(scene, *make_mobility(scene, rods), rods);
+}
+
+}  // namespace
+
+TEST_CASE("a sphere diffuses by Stokes and Einstein, and does not turn") {
+    const FreeClocks clocks = clocks_of(Scene{}, 0.0);
+    CHECK(clocks.rotation == 0.0);
+    CHECK(clocks.diffusion == doctest::Approx(3.0 * std::numbers::pi));  // D^2 3 pi mu D/kT
+}
+
+TEST_CASE("a rod turns in 1/(2 D_R); tumbles turn it, too; without noise nothing does") {
+    Scene scene;
+    Rods rods;
+    rods.push_back(0, {}, {1, 0, 0}, 5.0, 1.0);
+    const double alone = 0.5 / make_mobility(scene, rods)->of_rod(0).rotational;
+    CHECK(clocks_of(scene, 5.0).rotation == doctest::Approx(alone));
+    scene.motion.self_propulsion = 1.0;
+    scene.motion.tumble_rate = 1.0 / alone;
+    CHECK(clocks_of(scene, 5.0).rotation == doctest::Approx(0.5 * alone));
+    scene = {};
+    scene.motion.brownian = false;
+    CHECK(clocks_of(scene, 5.0).rotation == 0.0);
+    CHECK(clocks_of(scene, 5.0).diffusion == 0.0);
+}
+
+TEST_CASE("a crowd slows its rods: within a factor of two of measured decays of the order tensor") {
+    CHECK(crowding_slowdown(0.0, 5.0) == doctest::Approx(1.0));
+    const auto within_two = [](double estimate, double measured) {
+        return estimate < 2.0 * measured && estimate > 0.5 * measured;
+    };
+    // 1/(6 D_R) alone: 11.7, 29.4 and 128 kT^-1 D^3 mu for L/D = 3, 5 and 10; measured 27.5, 209, 56, 380 to 470, 490
+    // to 660.
+    CHECK(within_two(crowding_slowdown(0.3, 3.0), 2.34));
+    CHECK(within_two(crowding_slowdown(0.5, 3.0), 17.8));
+    CHECK(within_two(crowding_slowdown(0.2, 5.0), 1.9));
+    CHECK(within_two(crowding_slowdown(0.35, 5.0), 14.8));
+    CHECK(within_two(crowding_slowdown(0.2, 10.0), 4.5));
+    CHECK(crowding_slowdown(0.2, 0.0) < 2.0);
+    for (const double phi : {0.1, 0.3, 0.5, 0.7, 0.9})
+        for (const double ratio : {0.0, 1.0, 5.0, 20.0, 100.0}) {
+            CHECK(crowding_slowdown(phi, ratio) >= 1.0);
+            CHECK(crowding_slowdown(phi, ratio) <= 100.0);
+        }
+}
