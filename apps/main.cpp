@@ -8,6 +8,7 @@
 #include "frames_so_far.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/error/one_line.hpp"
+#include "jostle/run_files/version.hpp"
 #include "keys_command.hpp"
 #include "presentation_command.hpp"
 #include "run_command.hpp"
@@ -15,7 +16,6 @@
 #include "stop_request.hpp"
 #include "stress_command.hpp"
 #include "verify_command.hpp"
-#include "version.hpp"
 #include "waiting_threads.hpp"
 
 namespace {
@@ -91,8 +91,8 @@ std::string frames_of(const std::string& folder, const std::string& out) {
 /// Reads the command line, and does what it says.
 ExitCode obey(int argc, char** argv) {
     CLI::App app{"jostle: collision stress of assemblies of rods"};
-    app.set_version_flag("--version",
-                         std::string("jostle ") + jostle_version + " (" + jostle_commit + ", " + jostle_compiler + ")");
+    app.set_version_flag("--version", std::string("jostle ") + jostle::program_version + " (" + jostle::program_commit +
+                                          ", " + jostle::program_compiler + ")");
     app.require_subcommand(1);
     app.footer(footer);
 

@@ -10,7 +10,9 @@
 
 #include "jostle/disk/durable_file.hpp"
 #include "jostle/measurement/series_columns.hpp"
+#include "jostle/measurement/summary.hpp"
 #include "jostle/run_files/h5md_writer.hpp"
+#include "jostle/run_files/version.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/units.hpp"
@@ -19,9 +21,7 @@
 #include "jostle/setup/step_failure.hpp"
 #include "post_mortem.hpp"
 #include "stop_request.hpp"
-#include "summary.hpp"
 #include "summary_text.hpp"
-#include "version.hpp"
 
 using namespace jostle;
 
@@ -36,7 +36,7 @@ constexpr double kept_between_steps = 1.0, kept_within_step = 0.5, largest_part_
 H5mdAttributes trajectory_attributes(const RunScene& run_scene, const std::string& command_line) {
     const Scene& scene = run_scene.scene;
     H5mdAttributes attributes;
-    attributes.version = jostle_version;
+    attributes.version = program_version;
     attributes.scene = run_scene.text;
     attributes.resolved_scene = run_scene.resolved;
     attributes.seed = scene.seed;

@@ -4,12 +4,12 @@
 #include <string>
 
 #include "exit_code.hpp"
+#include "jostle/measurement/run_length.hpp"
 #include "jostle/measurement/step_sums.hpp"
 #include "jostle/run_files/run_directory.hpp"
 #include "jostle/simulation/simulation.hpp"
 #include "progress_line.hpp"
 #include "run_files.hpp"
-#include "run_length.hpp"
 #include "run_options.hpp"
 #include "run_record.hpp"
 #include "run_scene.hpp"
@@ -44,7 +44,7 @@ private:
     RunFiles& files_;
     const jostle::RunDirectory& directory_;
     jostle::StepSums sums_;
-    RunLength length_;
+    jostle::RunLength length_;
     RunRecord record_;
     ProgressLine progress_;
     std::chrono::steady_clock::time_point last_checkpoint_ = std::chrono::steady_clock::now();

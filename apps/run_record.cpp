@@ -9,8 +9,8 @@
 
 #include "jostle/disk/durable_file.hpp"
 #include "jostle/parallel/parallel_for.hpp"
+#include "jostle/run_files/version.hpp"
 #include "parsed_json.hpp"
-#include "version.hpp"
 
 using Json = nlohmann::ordered_json;
 
@@ -74,9 +74,9 @@ void RunRecord::write(const jostle::Simulation& simulation, const std::string& e
     if (!begun_) first_step_ = simulation.clock().step;
     begun_ = true;
     Json record = {{"program", "jostle"},
-                   {"version", jostle_version},
-                   {"git", jostle_commit},
-                   {"compiler", jostle_compiler},
+                   {"version", jostle::program_version},
+                   {"git", jostle::program_commit},
+                   {"compiler", jostle::program_compiler},
                    {"seed", simulation.settings().seed},
                    {"time_step", simulation.settings().time_step},
                    {"steps", simulation.clock().step},

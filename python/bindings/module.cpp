@@ -2,12 +2,13 @@
 
 #include "bindings/bindings.hpp"
 #include "jostle/parallel/parallel_for.hpp"
+#include "jostle/run_files/version.hpp"
 
 // The extension module behind the package `jostle`: C++ functions on NumPy arrays, and nothing more. Names, defaults,
 // conversions and docstrings for users are in python/jostle.
 PYBIND11_MODULE(_jostle, module) {
     using namespace jostle;
-    module.attr("version") = JOSTLE_VERSION;
+    module.attr("version") = program_version;
     module.def("set_thread_count", [](long long count) { parallel::set_thread_count(count); });
     module.def("thread_count", &parallel::thread_count);
     python::bind_errors(module);

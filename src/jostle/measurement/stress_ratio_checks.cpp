@@ -1,18 +1,19 @@
-#include "stress_ratio_checks.hpp"
+#include "jostle/measurement/stress_ratio_checks.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "jostle/math/symmetric_eigen.hpp"
+#include "jostle/measurement/stress_columns.hpp"
 #include "jostle/statistics/jackknife.hpp"
 #include "jostle/statistics/order_parameter.hpp"
 #include "jostle/stress/spherocylinder_moments.hpp"
-#include "stress_columns.hpp"
 
-using namespace jostle;
-using Json = nlohmann::ordered_json;
+namespace jostle {
 
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 /// Standard errors between what is measured and what equilibrium has that are still called agreement (false alarm
 /// 6e-5).
@@ -59,7 +60,7 @@ Json ratio_check(const char* definition, const Estimate& measured, const Range& 
 
 MeanDirector mean_director(const Columns& order) {
     std::array<double, 6> mean{};
-    for (std::size_t k = 0; k < 6; ++k) mean[k] = mean_of(order[k]);
+    for (std::size_t k = 0; k < 6; ++k) mean[k] = column_mean(order[k]);
     const auto eigen = symmetric_eigen(order_of(mean));
     return {eigen.vectors[2], eigen.values[2]};
 }
@@ -96,3 +97,5 @@ Json collision_stress_ratio_check(const Columns& stress, const Columns& order, c
         all, [&](std::span<const double> means) { return of_stress(means.first(9)) - of_order(means.subspan(9)); });
     return ratio_check(definition, measured, {predicted, predicted}, difference.standard_error, agreement);
 }
+
+}  // namespace jostle

@@ -1,15 +1,19 @@
 #pragma once
 
 #include "jostle/math/mat3.hpp"
+#include "jostle/measurement/summary_entries.hpp"
 #include "jostle/run_files/series_file.hpp"
-#include "summary_entries.hpp"
+
+namespace jostle {
 
 /// A stress tensor of nine means, by rows.
-jostle::Mat3 stress_of(std::span<const double> means);
+Mat3 stress_of(std::span<const double> means);
 
 /// The nine columns of the orientation stress, from the six of the series, from row `first` on.
-Columns orientation_stress_columns(const jostle::SeriesTable& series, std::size_t first);
+Columns orientation_stress_columns(const SeriesTable& series, std::size_t first);
 
 /// The nine columns of the whole stress (theory, eq. 1.19), from row `first` on: n kT on the diagonal, orientation
 /// stress, collision stress, and that of springs where there are some.
-Columns total_stress_columns(const jostle::SeriesTable& series, std::size_t first, bool springs);
+Columns total_stress_columns(const SeriesTable& series, std::size_t first, bool springs);
+
+}  // namespace jostle

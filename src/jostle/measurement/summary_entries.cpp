@@ -1,12 +1,13 @@
-#include "summary_entries.hpp"
+#include "jostle/measurement/summary_entries.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-using namespace jostle;
-using Json = nlohmann::ordered_json;
+namespace jostle {
 
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 void set_null(Json& entry) {
     if (!entry.is_array()) entry = nullptr;
@@ -19,7 +20,7 @@ std::vector<double> from_row(const std::vector<double>& column, std::size_t firs
     return {column.begin() + static_cast<std::ptrdiff_t>(std::min(first, column.size())), column.end()};
 }
 
-double mean_of(const std::vector<double>& column) {
+double column_mean(const std::vector<double>& column) {
     return average(column).mean;
 }
 
@@ -87,3 +88,5 @@ void withhold_errors(Json& entry, const std::string& reason) {
     }
     for (Json& part : entry) withhold_errors(part, reason);
 }
+
+}  // namespace jostle

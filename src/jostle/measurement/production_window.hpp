@@ -6,15 +6,18 @@
 #include "jostle/scene/scene.hpp"
 #include "jostle/statistics/equilibrium_check.hpp"
 
+namespace jostle {
+
 /// Which rows of the series are averaged over, and whether they are of equilibrium.
 struct ProductionWindow {
     std::size_t first_row = 0;
     double equilibration_time = 0.0;
-    jostle::EquilibriumCheck equilibrium;
+    EquilibriumCheck equilibrium;
 
-    bool equilibrated() const { return equilibrium.verdict == jostle::EquilibriumCheck::Verdict::reached; }
+    bool equilibrated() const { return equilibrium.verdict == EquilibriumCheck::Verdict::reached; }
 };
 
 /// The window of production at the end of the series as it is, or where equilibration has to be found in it.
-ProductionWindow production_window(const jostle::Scene& scene, const jostle::SeriesTable& series,
-                                   const jostle::FreeClocks& clocks);
+ProductionWindow production_window(const Scene& scene, const SeriesTable& series, const FreeClocks& clocks);
+
+}  // namespace jostle

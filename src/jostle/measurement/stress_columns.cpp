@@ -1,10 +1,10 @@
-#include "stress_columns.hpp"
+#include "jostle/measurement/stress_columns.hpp"
 
 #include <algorithm>
 
 #include "jostle/measurement/series_columns.hpp"
 
-using namespace jostle;
+namespace jostle {
 
 namespace {
 
@@ -40,3 +40,5 @@ Columns total_stress_columns(const SeriesTable& series, std::size_t first, bool 
     for (const std::size_t diagonal : {0U, 4U, 8U}) add(total[diagonal], kinetic, 1.0);
     return total;
 }
+
+}  // namespace jostle

@@ -1,4 +1,4 @@
-#include "production_window.hpp"
+#include "jostle/measurement/production_window.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "jostle/measurement/series_columns.hpp"
+#include "jostle/measurement/summary_entries.hpp"
 #include "jostle/statistics/equilibration.hpp"
-#include "summary_entries.hpp"
 
-using namespace jostle;
+namespace jostle {
 
 namespace {
 
@@ -75,3 +75,5 @@ ProductionWindow production_window(const Scene& scene, const SeriesTable& series
     }
     return window;
 }
+
+}  // namespace jostle

@@ -3,13 +3,15 @@
 #include <nlohmann/json.hpp>
 
 #include "jostle/math/mat3.hpp"
+#include "jostle/measurement/summary_entries.hpp"
 #include "jostle/rods/rods.hpp"
 #include "jostle/run_files/series_file.hpp"
-#include "summary_entries.hpp"
+
+namespace jostle {
 
 struct MeanDirector {
-    jostle::Vec3 direction;  ///< which end of it is the head is arbitrary
-    double order;            ///< S of the mean order tensor
+    Vec3 direction;  ///< which end of it is the head is arbitrary
+    double order;    ///< S of the mean order tensor
 };
 
 /// Largest eigenvalue of the mean order tensor, and its eigenvector. `order`: the six columns of the order tensor.
@@ -23,3 +25,5 @@ nlohmann::ordered_json total_stress_ratio_check(const Columns& stress, const Col
 /// 1.8), of equal rods of the aspect ratio L/D. `Z`: its column.
 nlohmann::ordered_json collision_stress_ratio_check(const Columns& stress, const Columns& order,
                                                     const std::vector<double>& Z, double aspect_ratio);
+
+}  // namespace jostle

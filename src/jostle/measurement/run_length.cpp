@@ -1,11 +1,11 @@
-#include "run_length.hpp"
+#include "jostle/measurement/run_length.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "production_window.hpp"
+#include "jostle/measurement/production_window.hpp"
 
-using namespace jostle;
+namespace jostle {
 
 namespace {
 
@@ -43,3 +43,5 @@ double RunLength::fraction_done(std::size_t rows) const {
         fixed_rows_ > 0 ? static_cast<double>(fixed_rows_) : 1.25 * static_cast<double>(production_rows_);
     return std::min(1.0, static_cast<double>(rows) / expected);
 }
+
+}  // namespace jostle

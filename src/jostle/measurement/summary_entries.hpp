@@ -12,6 +12,8 @@
 #include "jostle/statistics/jackknife.hpp"
 #include "jostle/statistics/time_series.hpp"
 
+namespace jostle {
+
 /// Columns of a series: (columns)(rows).
 using Columns = std::vector<std::vector<double>>;
 
@@ -19,16 +21,16 @@ using Columns = std::vector<std::vector<double>>;
 std::vector<double> from_row(const std::vector<double>& column, std::size_t first);
 
 /// The mean of a column, of any length.
-double mean_of(const std::vector<double>& column);
+double column_mean(const std::vector<double>& column);
 
 /// The rows from `first` on of the columns of these names.
-Columns window_columns(const jostle::SeriesTable& series, std::size_t first, std::span<const char* const> names);
+Columns window_columns(const SeriesTable& series, std::size_t first, std::span<const char* const> names);
 
 /// How summary.json tells an average: mean, standard error or the reason that there is none, and what they rest on.
-nlohmann::ordered_json described(const jostle::Average& average, const std::string& unit);
-nlohmann::ordered_json described(const jostle::Estimate& estimate);
+nlohmann::ordered_json described(const Average& average, const std::string& unit);
+nlohmann::ordered_json described(const Estimate& estimate);
 
-nlohmann::ordered_json described(const jostle::EquilibriumCheck& check);
+nlohmann::ordered_json described(const EquilibriumCheck& check);
 
 /// A number, or null.
 nlohmann::ordered_json optional_number(const std::optional<double>& value);
@@ -39,3 +41,5 @@ nlohmann::ordered_json tensor_entry(const Columns& columns, const std::string& u
 /// Takes all error bars out of an entry and its parts, and gives the reason instead. A check of theory that agrees is
 /// no longer said to; one that fails still is.
 void withhold_errors(nlohmann::ordered_json& entry, const std::string& reason);
+
+}  // namespace jostle

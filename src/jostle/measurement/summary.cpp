@@ -1,4 +1,4 @@
-#include "summary.hpp"
+#include "jostle/measurement/summary.hpp"
 
 #include <fmt/format.h>
 
@@ -6,21 +6,22 @@
 #include <cmath>
 
 #include "jostle/math/symmetric_eigen.hpp"
+#include "jostle/measurement/production_window.hpp"
 #include "jostle/measurement/series_columns.hpp"
+#include "jostle/measurement/stress_columns.hpp"
+#include "jostle/measurement/stress_ratio_checks.hpp"
+#include "jostle/measurement/summary_entries.hpp"
+#include "jostle/run_files/version.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/units.hpp"
 #include "jostle/setup/free_clocks.hpp"
 #include "jostle/stress/stress.hpp"
-#include "production_window.hpp"
-#include "stress_columns.hpp"
-#include "stress_ratio_checks.hpp"
-#include "summary_entries.hpp"
-#include "version.hpp"
 
-using namespace jostle;
-using Json = nlohmann::ordered_json;
+namespace jostle {
 
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 /// Standard errors between the largest and the smallest principal stress from which on they are called different. Those
 /// of an isotropic state lie two apart in the mean, and four once in a thousand times.
@@ -56,7 +57,7 @@ std::vector<double> along_rows(const Columns& stress, const Vec3& direction) {
 /// Eigenvalues of the mean stress, ascending, each with the error of the stress along its eigenvector.
 Json mean_principal_stresses(const Columns& stress, const std::string& unit) {
     std::array<double, 9> mean{};
-    for (std::size_t k = 0; k < 9; ++k) mean[k] = mean_of(stress[k]);
+    for (std::size_t k = 0; k < 9; ++k) mean[k] = column_mean(stress[k]);
     const auto eigen = symmetric_eigen(stress_of(mean));
     Json means = Json::array(), errors = Json::array();
     for (std::size_t k = 0; k < 3; ++k) {
@@ -129,8 +130,8 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     summary["seed"] = simulation.settings().seed;
     summary["self_propulsion"] = {{"mean", scene.motion.self_propulsion}, {"unit", unit_of(scene, dimension::speed)}};
     summary["box"] = box_entry(scene, simulation.box());
-    summary["version"] = jostle_version;
-    summary["git"] = jostle_commit;
+    summary["version"] = program_version;
+    summary["git"] = program_commit;
     summary["steps"] = simulation.clock().step;
     summary["time"] = simulation.clock().time;
     summary["time_step"] = simulation.settings().time_step;
@@ -186,3 +187,5 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
         withhold_errors(summary, "Equilibrium: " + in_words(window.equilibrium) + ".");
     return summary;
 }
+
+}  // namespace jostle

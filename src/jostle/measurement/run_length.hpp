@@ -6,21 +6,25 @@
 #include "jostle/scene/scene.hpp"
 #include "jostle/statistics/equilibrium_check.hpp"
 
+namespace jostle {
+
 /// Decides, from the series alone, when a run has all that it was asked for.
 class RunLength {
 public:
-    RunLength(const jostle::Scene& scene, double time_step, const jostle::FreeClocks& clocks);
+    RunLength(const Scene& scene, double time_step, const FreeClocks& clocks);
 
-    bool is_over(const jostle::SeriesTable& series);
+    bool is_over(const SeriesTable& series);
 
     /// From 0 to 1; with equilibration to be detected, as if it took a quarter of the production.
     double fraction_done(std::size_t rows) const;
 
 private:
-    const jostle::Scene& scene_;
-    jostle::FreeClocks clocks_;
+    const Scene& scene_;
+    FreeClocks clocks_;
     bool can_be_long_enough_ = true;  ///< else more time would only end in the same words
     std::size_t production_rows_ = 1;
     std::size_t fixed_rows_ = 0;  ///< 0: equilibration is detected
     std::size_t rows_looked_at_ = 0;
 };
+
+}  // namespace jostle
