@@ -10,11 +10,12 @@
 #include "jostle/error/one_line.hpp"
 #include "jostle/run_files/version.hpp"
 #include "keys_command.hpp"
-#include "presentation_command.hpp"
+#include "python_program.hpp"
 #include "run_command.hpp"
 #include "standard_streams.hpp"
 #include "stop_request.hpp"
 #include "stress_command.hpp"
+#include "sweep_options.hpp"
 #include "verify_command.hpp"
 #include "waiting_threads.hpp"
 
@@ -157,6 +158,11 @@ ExitCode obey(int argc, char** argv) {
         pictures->add_option("--colour", colour, "direction, angle, speed, ...; default: what suits the run");
     }
 
+    SweepOptions sweep_options;
+    CLI::App* sweep = add_sweep_command(app, sweep_options);
+    CLI::App* collect = add_collect_command(app, sweep_options);
+    CLI::App* extrapolate = add_extrapolate_command(app, sweep_options);
+
     StressOptions stress_options;
     CLI::App* stress = add_stress_command(app, stress_options);
 
@@ -178,14 +184,18 @@ ExitCode obey(int argc, char** argv) {
     if (check->parsed()) return check_command(scene, options.settings);
     if (keys->parsed()) return keys_command(keys_as_json);
     if (stress->parsed()) return stress_command(stress_options);
+    for (const CLI::App* command : {sweep, collect, extrapolate})
+        if (command->parsed()) return sweep_command(command->get_name(), sweep_options, argv[0]);
     if (verify->parsed()) return verify_command(folder);
-    if (exporter->parsed()) return presentation_command("export", {"--to=" + format, "--out=" + out, "--", folder});
+    if (exporter->parsed())
+        return python_program("presentation/export", {"--to=" + format, "--out=" + out, "--", folder});
     if (movie->parsed())
-        return presentation_command("movie", {"--size=" + size, "--fps=" + fps, "--view=" + view, "--colour=" + colour,
-                                              "--frames=" + frames_of(folder, out), "--out=" + out, "--", folder});
-    return presentation_command(
-        "report", {"--width=" + width, "--megabytes=" + megabytes, "--frame=" + frame, "--view=" + view,
-                   "--colour=" + colour, "--frames=" + frames_of(folder, out), "--out=" + out, "--", folder});
+        return python_program("presentation/movie",
+                              {"--size=" + size, "--fps=" + fps, "--view=" + view, "--colour=" + colour,
+                               "--frames=" + frames_of(folder, out), "--out=" + out, "--", folder});
+    return python_program("presentation/report",
+                          {"--width=" + width, "--megabytes=" + megabytes, "--frame=" + frame, "--view=" + view,
+                           "--colour=" + colour, "--frames=" + frames_of(folder, out), "--out=" + out, "--", folder});
 }
 
 }  // namespace

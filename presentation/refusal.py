@@ -50,12 +50,11 @@ def _stop(*_):
 
 
 def exit_status(program):
-    """Runs the program, and tells what went wrong on standard error in one line."""
+    """Runs the program, and tells what went wrong on standard error in one line. Its result, if any, is the exit status."""
     signal.signal(signal.SIGTERM, _stop)  # so that what was begun is removed
     sys.stdout.reconfigure(errors="surrogateescape")  # names as they are
     try:
-        program()
-        return DONE
+        return program() or DONE
     except Refusal as refusal:
         _tell(str(refusal))
         return BAD_INPUT
