@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "cli"))
-from jostle_command import BAD_INPUT, DISK, DONE, JOSTLE, NOTICES, NUMERICS, STOPPED  # noqa: E402
+from jostle_command import BAD_INPUT, DISK, JOSTLE, NOTICES  # noqa: E402
 
 MOST_MEMORY = 2 * 1024**3  # bytes of address space that one command may take
 MOST_SECONDS = 60.0
@@ -62,6 +62,3 @@ def require_one_clear_line(stderr):
         raise Defect(f"a refusal that is no text: {stderr[:500]!r}") from None
     if any(ord(sign) < 32 or ord(sign) == 127 for sign in text):
         raise Defect(f"a refusal with control characters: {stderr[:500]!r}")
-
-
-__all__ = ["BAD_INPUT", "DISK", "DONE", "Defect", "NUMERICS", "STOPPED", "jostle", "require_ending"]

@@ -9,8 +9,8 @@ import signal
 import subprocess
 from pathlib import Path
 
-from campaign import DISK, DONE, Defect, STOPPED, jostle, require_ending
-from jostle_command import require_same_results, scene_text
+from campaign import Defect, jostle, require_ending
+from jostle_command import DISK, DONE, require_same_results, scene_text
 
 import folders
 
@@ -81,6 +81,3 @@ def try_faults(folder, library, name, reference, faults):
         raise Defect(f"{told}: {difference}") from None
     except Defect as defect:
         raise Defect(f"{told}: {defect}") from None
-
-
-__all__ = ["ARGUMENTS", "KINDS", "STOPPED", "cases", "interposer", "prepared"]

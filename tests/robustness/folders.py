@@ -4,8 +4,8 @@ harm: with the files as they were before the damage it then goes on to the same 
 
 import shutil
 
-from campaign import BAD_INPUT, DISK, DONE, Defect, jostle, require_ending
-from jostle_command import RODS, changed, require_same_results, scene_text, with_steps
+from campaign import Defect, jostle, require_ending
+from jostle_command import BAD_INPUT, DISK, DONE, RODS, changed, require_same_results, scene_text, with_steps
 
 KINDS = {
     "rods": RODS,

@@ -10,9 +10,9 @@ import struct
 from dataclasses import dataclass
 from pathlib import Path
 
-from campaign import DONE, Defect, jostle, require_ending
+from campaign import Defect, jostle, require_ending
 from faults import ARGUMENTS, KINDS, interposer, prepared
-from jostle_command import require_same_results
+from jostle_command import DONE, require_same_results
 
 NAMES = ("create", "rename", "unlink", "mkdir")
 

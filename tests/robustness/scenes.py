@@ -7,8 +7,8 @@ import json
 import math
 import shutil
 
-from campaign import BAD_INPUT, DONE, Defect, NUMERICS, STOPPED, jostle, require_ending
-from jostle_command import scene_text, toml_value
+from campaign import Defect, jostle, require_ending
+from jostle_command import BAD_INPUT, DONE, NUMERICS, STOPPED, scene_text
 
 RUN_SECONDS = "0:00:02"
 MOST_ROWS = 2000
@@ -185,7 +185,4 @@ def require_finite(series):
 
 
 def refuse_constant(name):
-    raise Defect(f"summary.json holds {name}")
-
-
-__all__ = ["cases", "mutated", "scene", "toml_value"]
+    raise Defect(f"JSON holds {name}")

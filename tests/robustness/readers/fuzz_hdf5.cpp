@@ -1,5 +1,5 @@
 // Tables of other programs in HDF5. The HDF5 library itself is Debian's and not instrumented: its crashes are found,
-// its branches are not seen.
+// its branches are not seen. A child process reads the file: shared_counters.cpp lets what it covers be seen.
 #include "jostle/tables/body_table.hpp"
 #include "reader_target.hpp"
 
