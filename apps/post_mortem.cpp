@@ -7,6 +7,7 @@
 
 #include "jostle/disk/durable_file.hpp"
 #include "jostle/scene/scene_box.hpp"
+#include "sealed_json.hpp"
 
 using namespace jostle;
 using Json = nlohmann::ordered_json;
@@ -85,5 +86,5 @@ void write_post_mortem(const std::string& path, const Simulation& simulation, co
         {"deepest_contacts", worst_contacts(simulation, [&](std::size_t l) { return -contacts[l].gap; })},
         {"strongest_contacts",
          worst_contacts(simulation, [&](std::size_t l) { return l < gamma.size() ? gamma[l] : 0.0; })}};
-    replace_file(path, record.dump(2) + "\n");
+    replace_file(path, sealed_json(record));
 }

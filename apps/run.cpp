@@ -20,6 +20,7 @@
 #include "jostle/setup/largest_overlap.hpp"
 #include "jostle/setup/step_failure.hpp"
 #include "post_mortem.hpp"
+#include "sealed_json.hpp"
 #include "stop_request.hpp"
 #include "summary_text.hpp"
 
@@ -201,12 +202,13 @@ ExitCode Run::finish() {
     write_trajectory();
     const double overlap = std::max(sums_.run_max_overlap, last.max_overlap);
     const auto summary = summarise(scene_, simulation_, files_.series(), overlap);
-    replace_file(directory_.file("summary.json"), summary.dump(2) + "\n");
+    const std::string text = sealed_json(summary);
+    replace_file(directory_.file("summary.json"), text);
     record_.write(simulation_, "done");
     const bool known = summary["equilibrated"].get<bool>() || scene_.growth.rate > 0.0;
     show_progress(known ? "" : summary["equilibrium"]["in_words"].get<std::string>());
     if (options_.json)
-        std::printf("%s\n", summary.dump(2).c_str());
+        std::fputs(text.c_str(), stdout);
     else if (!options_.quiet)
         std::printf("%s%s\n", summary_text(summary).c_str(), ("files in " + directory_.path()).c_str());
     return ExitCode::done;

@@ -58,6 +58,7 @@ std::string freed(const std::string& folder, bool quiet) {
 }
 
 ExitCode start_run(const RunOptions& options, const RunScene& scene, std::string folder) {
+    require_place_for_run(folder);  // before the time that a dense start takes
     const Scene::RodsTable& rods = scene.scene.rods;
     const bool draws = rods.start == StartKind::random || rods.start == StartKind::aligned;
     if (draws && rods.count >= many_to_place && !options.quiet && !options.json)

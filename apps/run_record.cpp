@@ -11,6 +11,7 @@
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/run_files/version.hpp"
 #include "parsed_json.hpp"
+#include "sealed_json.hpp"
 
 using Json = nlohmann::ordered_json;
 
@@ -92,6 +93,5 @@ void RunRecord::write(const jostle::Simulation& simulation, const std::string& e
                                   {"last_step", simulation.clock().step},
                                   {"wall_seconds", seconds_now() - began_},
                                   {"exit_reason", exit_reason}});
-    jostle::replace_file(directory_.file("run.json"),
-                         record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    jostle::replace_file(directory_.file("run.json"), sealed_json(record));
 }

@@ -3,6 +3,7 @@
 import ctypes
 import json
 import math
+import re
 import shutil
 import struct
 
@@ -234,6 +235,26 @@ def test_files_that_are_written_anew(finished_copy, finished, name, damage):
     assert snapshot(finished_copy) == before
     finish(finished_copy)
     require_same_results(finished_copy / "run", finished / "run")
+    assert command(finished_copy, "verify", "run").returncode == DONE
+
+
+@pytest.mark.parametrize("name", ["run.json", "summary.json"])
+def test_a_bit_of_a_json_file(finished_copy, name):
+    """Each digit counts, and each bit: the file ends with a checksum."""
+    random = random_numbers()
+    path = finished_copy / "run" / name
+    text = path.read_text()
+    assert re.search(r',\n  "checksum": "[0-9a-f]{16}"\n}\n$', text)
+    digits = [place for place, sign in enumerate(text) if sign in "0123456789"]
+    for place in random.sample(digits, 10):
+        path.write_text(text[:place] + str((int(text[place]) + 1) % 10) + text[place + 1:])
+        require_found(finished_copy, f"run/{name}: is damaged: it does not fit its checksum", "it writes this file anew")
+    path.write_text(text)
+    for _ in range(10):
+        bit = random.randrange(8 * len(text.encode()))
+        flip_bit(path, bit)
+        require_found(finished_copy, f"run/{name}: is damaged")
+        flip_bit(path, bit)
     assert command(finished_copy, "verify", "run").returncode == DONE
 
 

@@ -18,7 +18,7 @@ JAMMED = {
     "output": {"series_every": 1},
 }
 FIELDS = ["failure", "step", "time", "time_step", "volume_fraction", "residual", "tolerance", "iterations",
-          "max_iterations", "contacts", "max_overlap", "deepest_contacts", "strongest_contacts"]
+          "max_iterations", "contacts", "max_overlap", "deepest_contacts", "strongest_contacts", "checksum"]
 CONTACT_FIELDS = ["id_i", "id_j", "image", "gap", "force"]
 
 

@@ -2,7 +2,9 @@
 
 import json
 
-from jostle_command import BAD_INPUT, DONE, RODS, changed, command, finish, run, with_steps, write_scene
+import pytest
+
+from jostle_command import BAD_INPUT, DONE, RODS, changed, command, finish, require_one_line, run, with_steps, write_scene
 
 DENSE = changed(with_steps(RODS, 20), box={"volume_fraction": 0.35})
 DILUTE = changed(DENSE, box={"volume_fraction": 0.02})
@@ -54,6 +56,17 @@ def test_rods_that_should_order_are_warned_of(tmp_path):
     assert warning in command(tmp_path, "check", "scene.toml").stdout
     write_scene(tmp_path, changed(NEMATIC, box={"volume_fraction": 0.40}))
     assert "WARNING" not in command(tmp_path, "check", "scene.toml").stdout
+
+
+@pytest.mark.parametrize("options", [[], ["--fresh"]])
+def test_a_folder_that_cannot_be_taken_is_refused_before_the_start(tmp_path, options):
+    """A dense start takes a while: its notice is not there."""
+    write_scene(tmp_path, DENSE)
+    (tmp_path / "run").mkdir()
+    (tmp_path / "run/letter.txt").write_text("mine")
+    refused = run(tmp_path, *options)
+    require_one_line(refused, "--out", "no run of jostle made it")
+    assert refused.stderr.count("\n") == 1, refused.stderr
 
 
 def test_a_start_that_takes_longer_than_the_wall_time_leaves_nothing(tmp_path):

@@ -97,16 +97,11 @@ AppendFile::~AppendFile() {
 }
 
 void AppendFile::write_all(std::string_view bytes) {
-    std::string_view rest = bytes;
-    while (!rest.empty()) {
-        const ssize_t written = uninterrupted([&] { return ::write(descriptor_, rest.data(), rest.size()); });
-        if (written < 0) {
-            const int error_number = errno;
-            // Undo the part that went through; if even this fails, resuming cuts the file at the checkpoint.
-            [[maybe_unused]] const int ignored = ::ftruncate(descriptor_, static_cast<off_t>(size_));
-            throw DiskError(path_, "write", error_number);
-        }
-        rest.remove_prefix(static_cast<std::size_t>(written));
+    if (!write_to(descriptor_, bytes)) {
+        const int error_number = errno;
+        // Undo the part that went through; if even this fails, resuming cuts the file at the checkpoint.
+        [[maybe_unused]] const int ignored = ::ftruncate(descriptor_, static_cast<off_t>(size_));
+        throw DiskError(path_, "write", error_number);
     }
     size_ += bytes.size();
 }
@@ -154,6 +149,15 @@ void ReadFile::read_up_to(std::uint64_t count, std::string& bytes) {
         filled += static_cast<std::size_t>(got);
     }
     bytes.resize(filled);
+}
+
+bool write_to(int descriptor, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = uninterrupted([&] { return ::write(descriptor, bytes.data(), bytes.size()); });
+        if (written < 0) return false;
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return true;
 }
 
 std::string read_file(const std::string& path) {

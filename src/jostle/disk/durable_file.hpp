@@ -77,6 +77,9 @@ private:
     std::uint64_t size_ = 0;
 };
 
+/// Writes all of `bytes` to an open file. Result: false, with errno, if the system refuses; a part may be written then.
+bool write_to(int descriptor, std::string_view bytes);
+
 /// The whole file. Errors: as ReadFile.
 std::string read_file(const std::string& path);
 

@@ -46,11 +46,7 @@ int new_file_beside(const std::string& path, std::string& name) {
 }
 
 void write_all(int descriptor, std::string_view bytes, const std::string& path) {
-    while (!bytes.empty()) {
-        const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-        if (written < 0 && errno != EINTR) fail(path, "write", errno);
-        if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
-    }
+    if (!write_to(descriptor, bytes)) fail(path, "write", errno);
 }
 
 /// Owns a descriptor.

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -139,6 +140,18 @@ std::string RunDirectory::path() const {
 RunDirectory::~RunDirectory() {
     // The lock file stays: removing it would let two processes lock two files of the same name.
     if (lock_ >= 0) ::close(lock_);
+}
+
+void require_place_for_run(const std::string& path) {
+    const std::string folder = without_last_slash(path);
+    if (!folder_exists(folder)) return;
+    require_run_directory(folder);
+    const int lock = ::open((folder + "/lock").c_str(), O_RDONLY | O_CLOEXEC);
+    if (lock < 0) return;
+    const std::optional<InputError> held =
+        ::flock(lock, LOCK_SH | LOCK_NB) < 0 && errno == EWOULDBLOCK ? std::optional(busy(folder, lock)) : std::nullopt;
+    ::close(lock);
+    if (held) throw *held;
 }
 
 bool is_run_directory(const std::string& path) {

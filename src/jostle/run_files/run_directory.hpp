@@ -31,6 +31,9 @@ private:
     int lock_ = -1;
 };
 
+/// Looks whether a run could have the folder, and touches nothing. Errors: InputError as of RunDirectory.
+void require_place_for_run(const std::string& path);
+
 /// Whether the folder was made by a run: it holds run.json, resolved.toml, a checkpoint, or jostle's lock.
 ///
 /// scene.toml alone is no sign: it may be the user's own folder of scenes.

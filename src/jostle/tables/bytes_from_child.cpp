@@ -21,15 +21,6 @@ namespace {
 // The last byte that the child writes: without it, it has not come to its end.
 constexpr char whole = 'w', without_memory = 'm';
 
-bool write_all(int descriptor, const std::string& bytes) {
-    for (std::size_t written = 0; written < bytes.size();) {
-        const ssize_t more = ::write(descriptor, bytes.data() + written, bytes.size() - written);
-        if (more < 0 && errno != EINTR) return false;
-        if (more > 0) written += static_cast<std::size_t>(more);
-    }
-    return true;
-}
-
 void limit_to(rlim_t most, decltype(RLIMIT_CORE) resource) {
     rlimit limit{};
     ::getrlimit(resource, &limit);
@@ -45,9 +36,9 @@ void limit_to(rlim_t most, decltype(RLIMIT_CORE) resource) {
         if (standard != answer) ::dup2(nowhere, standard);
     bool told = false;
     try {
-        told = write_all(answer, make() + whole);
+        told = write_to(answer, make() + whole);
     } catch (const std::bad_alloc&) {
-        told = write_all(answer, std::string(1, without_memory));
+        told = write_to(answer, std::string(1, without_memory));
     } catch (...) {  // told by what is missing
     }
     ::_exit(told ? 0 : 1);

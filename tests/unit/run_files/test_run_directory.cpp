@@ -41,12 +41,14 @@ TEST_CASE("a second process is refused and told the first one's number; kill -9 
     const std::string busy = "another jostle (process " + std::to_string(child) + ") runs in this folder";
     CHECK(contains(message_of<InputError>([&] { RunDirectory run(path); }), busy));
     CHECK(contains(message_of<InputError>([&] { move_aside(path); }), busy));
+    CHECK(contains(message_of<InputError>([&] { require_place_for_run(path); }), busy));
     CHECK(fs::exists(path));
     CHECK_FALSE(fs::exists(path + ".1"));
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
     ::close(ready[0]);
     ::close(ready[1]);
+    CHECK_NOTHROW(require_place_for_run(path));
     CHECK_NOTHROW(RunDirectory{path});
 }
 
