@@ -11,6 +11,8 @@ import reference_values
 from report import with_error
 from runs import Run
 
+from replicas import mean_of  # of sweeps/, which runs.py adds to the path
+
 BETA = 5
 POINTS = {  # volume fraction: steps of equilibration (a random start near the transition orders slowly) and production
     0.05: (2000, 62000), 0.10: (2000, 26000), 0.15: (3000, 26000), 0.20: (3500, 26000), 0.25: (4500, 45000),
@@ -30,19 +32,14 @@ def runs(quick):
             for seed in SEEDS.get(phi, (1,))]
 
 
-def mean_of(runs_side_by_side):
-    """(Z, standard error) of runs of one length."""
-    Z, error = zip(*(run.value("Z") for run in runs_side_by_side))
-    return sum(Z) / len(Z), math.hypot(*error) / len(Z)
-
-
 def evaluate(report, runs_by_name, _):
     rows, numbers, points = [], [], []
     by_phi = {}
     for run in runs_by_name.values():
         by_phi.setdefault(run.scene["box"]["volume_fraction"], []).append(run)
     for phi, at_phi in by_phi.items():
-        Z, error = mean_of(at_phi)
+        mean = mean_of(*zip(*(run.value("Z") for run in at_phi)))
+        Z, error = mean.value, mean.within
         reference = reference_values.monte_carlo_at(BETA, phi)
         both = math.hypot(error, reference.Z_error)
         report.compare(f"phi = {phi:.2f}: Z", (Z, error), (reference.Z, reference.Z_error), TOLERANCE)

@@ -1,20 +1,20 @@
-"""Runs of the jostle program: scenes, many side by side, resumed where they were stopped."""
+"""Runs of a study: scenes, run as `jostle sweep` runs its points, and what they found."""
 
 import csv
 import dataclasses
 import functools
 import json
-import os
 import pathlib
-import signal
-import subprocess
 import sys
-import time
 
 import numpy
 
-SECONDS_BETWEEN_LOOKS = 0.3
-SECONDS_BETWEEN_LINES = 30.0
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path += [str(ROOT / "sweeps"), str(ROOT / "presentation")]
+
+import side_by_side  # noqa: E402  (the path comes first)
+from side_by_side import duration  # noqa: E402
+
 STOPPED_EARLY = 75
 
 
@@ -42,7 +42,6 @@ class Run:
     def __post_init__(self):
         self.folder = None  # set by `run_all`
         self.time_step = None
-        self.seconds = None  # foretold, of one thread
         self.errors_from_blocks = False  # the program would not tell them; set by `value`
 
     @property
@@ -59,17 +58,6 @@ class Run:
     def beside(self, ending):
         """A file beside the run's folder."""
         return self.folder.with_name(self.folder.name + ending)
-
-    def fraction_done(self):
-        """How much of the run lies in its series, from 0 to 1."""
-        try:
-            with open(self.folder / "series.csv", "rb") as series:
-                series.seek(0, os.SEEK_END)
-                series.seek(max(0, series.tell() - 4096))
-                last_row = series.read().rsplit(b"\n", 2)[-2]
-            return min(1.0, float(last_row.split(b",")[0]) / self.steps)
-        except (OSError, ValueError, IndexError):
-            return 0.0
 
     @functools.cached_property
     def summary(self):
@@ -142,127 +130,44 @@ def toml(tables):
     return "\n".join(lines) + "\n"
 
 
-def prepare(jostle, runs, folder):
-    """Gives every run its folder, and asks the program for its time step and its cost."""
-    folder.mkdir(parents=True, exist_ok=True)
-    for run in runs:
-        run.folder = folder / run.name
-        scene = run.beside(".check.toml")
-        for time_step in (1.0, None):  # first to learn the time step, then with the times that follow from it
-            scene.write_text(run.text(time_step or run.time_step))
-            told = subprocess.run([jostle, "check", scene], capture_output=True, text=True, check=False)
-            if told.returncode != 0:
-                raise RunFailed(f"{run.name}: {told.stderr}")
-            run.time_step = number_after(told.stdout, "time step")
-        run.seconds = number_after(told.stdout, "time on one thread, about")
-        scene.unlink()
+class Job(side_by_side.Job):
+    """Of a study a run is known by its scene as it is written: what was measured by an earlier version of the program is used again."""
+
+    def is_same(self):
+        return (self.folder / "scene.toml").read_text() == self.folder.with_name(self.name + ".toml").read_text()
 
 
-def number_after(text, label):
-    line = next(line for line in text.splitlines() if line.startswith(label + " "))
-    return float(line[len(label):].split()[0])
+def job_of(jostle, run, folder):
+    """Gives the run its folder and its time step, and writes its scene."""
+    run.folder = folder / run.name
+    scene = run.beside(".toml")
+    try:
+        scene.write_text(run.text(1.0))  # first to learn the time step, then with the times that follow from it
+        run.time_step = side_by_side.ask(jostle, scene).time_step
+        scene.write_text(run.text(run.time_step))
+        job = Job(run.name, run.folder, [jostle, "run", scene, "--out", run.folder], side_by_side.ask(jostle, scene))
+    except side_by_side.BadScene as refusal:
+        raise RunFailed(f"{run.name}: {refusal}") from None
+    if (run.folder / "scene.toml").exists() and not job.is_same():
+        job.words.append("--fresh")
+    return job
 
 
 def run_all(jostle, runs, folder, processes):
-    """Runs all, `processes` of one thread at a time, the longest first; with more threads if there are fewer runs than
-    processors. What has been run before is used again.
+    """Runs all, `processes` of one thread at a time, the longest first. What has been run before is used again.
 
     Raises RunFailed if any failed, after all have ended, and Stopped on Ctrl-C or SIGTERM.
     """
-    prepare(jostle, runs, folder)
-    waiting = sorted((run for run in runs if not is_done(run)), key=lambda run: run.seconds)
-    foretold = sum(run.seconds * (1.0 - run.fraction_done()) for run in waiting)
-    print(f"{len(runs)} runs, {len(runs) - len(waiting)} of them done before; the others take about "
-          f"{duration(foretold / processes)} on {processes} processors", flush=True)
-    threads = max(1, processes // max(1, len(waiting)))
-    running, failed, stopped = {}, [], []
-    progress = Progress(runs)
-    # Not by an exception: one between the start of a run and its place in the list would leave it running for ever.
-    former = {number: signal.signal(number, lambda *_: stopped.append(True)) for number in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        while (waiting or running) and not stopped:
-            while waiting and len(running) < processes:
-                run = waiting.pop()
-                running[start(jostle, run, threads)] = run
-            for process in [process for process in running if process.poll() is not None]:
-                run = running.pop(process)
-                if process.returncode != 0:
-                    failed.append(f"{run.name} ended with exit status {process.returncode}:\n"
-                                  + run.beside(".log").read_text())
-            progress.show(len(runs) - len(waiting) - len(running))
-            if running:
-                time.sleep(SECONDS_BETWEEN_LOOKS)
-    finally:
-        progress.end()
-        for number, handler in former.items():
-            signal.signal(number, handler)
-    if waiting or running:
-        for process in running:
-            process.send_signal(signal.SIGINT)
-        for process in running:
-            process.wait()
+    folder.mkdir(parents=True, exist_ok=True)
+    jobs = [job_of(jostle, run, folder) for run in runs]
+    done = sum(job.is_done() for job in jobs)
+    print(f"{len(jobs)} runs, {done} of them done before; the others take about {side_by_side.foretold(jobs, processes)} on {processes} processors",
+          flush=True)
+    if side_by_side.run_all(jobs, processes, beside=folder):
         raise Stopped
+    failed = [f"{job.name}: {job.failure}" for job in jobs if job.failure]
     if failed:
         raise RunFailed("\n".join(failed))
-
-
-def is_done(run):
-    """Whether the folder holds this very run, finished."""
-    try:
-        same = (run.folder / "scene.toml").read_text() == run.text(run.time_step)
-        return same and run.record["exit_reason"] == "done"
-    except (OSError, ValueError):
-        return False
-    finally:
-        run.__dict__.pop("record", None)  # it will change
-
-
-def start(jostle, run, threads):
-    """Starts, or goes on with, a run, in a process group of its own; its messages go to a log beside its folder."""
-    scene, text = run.beside(".toml"), run.text(run.time_step)
-    command = [jostle, "run", scene, "--out", run.folder, "--threads", str(threads), "--quiet"]
-    former = run.folder / "scene.toml"
-    if former.exists() and former.read_text() != text:
-        command.append("--fresh")
-    scene.write_text(text)
-    with open(run.beside(".log"), "w", encoding="utf-8") as log:
-        return subprocess.Popen(command, stdout=log, stderr=log, start_new_session=True)
-
-
-class Progress:
-    """One live line on a terminal, a plain line every half minute elsewhere."""
-
-    def __init__(self, runs):
-        self.runs = runs
-        self.total = sum(run.seconds for run in runs)
-        self.began = time.monotonic()
-        self.done_before = self.done()
-        self.last_line = self.began
-        self.live = sys.stdout.isatty()
-
-    def done(self):
-        return sum(run.seconds * run.fraction_done() for run in self.runs) / self.total
-
-    def show(self, finished):
-        now = time.monotonic()
-        if not self.live and now - self.last_line < SECONDS_BETWEEN_LINES:
-            return
-        self.last_line = now
-        done, elapsed = self.done(), now - self.began
-        gained = done - self.done_before
-        left = f"{duration(elapsed * (1.0 - done) / gained)} left" if gained > 0.01 else ""
-        line = f"{100 * done:3.0f} %  {finished} of {len(self.runs)} runs done  {left}"
-        print("\r\033[K" + line if self.live else line, end="" if self.live else "\n", flush=True)
-
-    def end(self):
-        if self.live:
-            print("\r\033[K", end="", flush=True)
-
-
-def duration(seconds):
-    minutes, seconds = divmod(int(round(seconds)), 60)
-    hours, minutes = divmod(minutes, 60)
-    return f"{hours} h {minutes:02d} min" if hours else f"{minutes} min {seconds:02d} s"
 
 
 def write_csv(path, header, rows):
@@ -279,8 +184,7 @@ def read_csv(path):
 
 def program(given):
     """The program to run: as given, or where the README's commands build it."""
-    root = pathlib.Path(__file__).resolve().parent.parent
-    places = [pathlib.Path(given)] if given else [root / "build" / preset / "apps/jostle"
+    places = [pathlib.Path(given)] if given else [ROOT / "build" / preset / "apps/jostle"
                                                   for preset in ("release", "quickstart")]
     for place in places:
         if place.exists():

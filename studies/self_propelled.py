@@ -12,6 +12,7 @@ import figures
 import reference_values
 from report import with_error
 from runs import Run
+from weighted_fit import WeightedFit
 
 SHAPES = {5: 0.0052, 10: 0.0065, 20: 0.0065}  # L/D: volume fraction
 SPEEDS = (0.0, 0.5, 1.0, 2.0, 3.5, 5.0)  # U_0/(L D_R)
@@ -71,10 +72,8 @@ class Shape:
 
     def line(self):
         """(intercept, slope, their errors) of a straight line through the points, weighted."""
-        matrix = numpy.array([self.speed**0, self.speed]).T / self.error[:, None]
-        covariance = numpy.linalg.inv(matrix.T @ matrix)
-        best = covariance @ matrix.T @ (self.value / self.error)
-        return best, numpy.sqrt(numpy.diag(covariance))
+        fit = WeightedFit(self.value, self.error, [self.speed**0, self.speed])
+        return fit.value, fit.error
 
     def effective_length(self, speed):
         """B2 of rods of length sqrt(L (L + U_0/D_R)), over that of L."""

@@ -12,6 +12,7 @@ import figures
 import reference_values
 from report import with_error
 from runs import Run
+from weighted_fit import WeightedFit
 
 STATES = ((0, 0.2), (0, 0.4), (5, 0.2), (5, 0.3))  # L/D, volume fraction
 STEPS = {0.005: 100000, 0.01: 60000, 0.02: 50000, 0.03: 50000, 0.045: 30000, 0.06: 40000, 0.1: 20000, 0.15: 20000, 0.2: 20000}  # rms step: production
@@ -88,16 +89,6 @@ class Series:
                           self.deviation_error[clear] / numpy.abs(self.deviation[clear]),
                           [self.rms[clear]**0, numpy.log(self.rms[clear])])
         return fit.value[1] / 2, fit.error[1] / 2
-
-
-class WeightedFit:
-    """Least squares of values, with their errors, as a sum of columns."""
-
-    def __init__(self, values, errors, columns):
-        matrix = numpy.array(columns).T / errors[:, None]
-        covariance = numpy.linalg.inv(matrix.T @ matrix)
-        self.value = covariance @ matrix.T @ (values / errors)
-        self.error = numpy.sqrt(numpy.diag(covariance))
 
 
 def fit_both(plain, corrected):

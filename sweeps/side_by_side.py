@@ -10,7 +10,10 @@ import subprocess
 import sys
 import tempfile
 import time
+import tomllib
 from pathlib import Path
+
+from runs_table import flat
 
 SECONDS_BETWEEN_LOOKS = 0.1
 SECONDS_BETWEEN_LINES = 30.0  # where there is no terminal
@@ -48,10 +51,14 @@ class Job:
     def is_done(self):
         """Whether the folder holds this very run, at its end."""
         try:
-            same = (self.folder / "resolved.toml").read_text() == self.told.resolved
-            return same and json.loads((self.folder / "run.json").read_text())["exit_reason"] in OVER
+            return self.is_same() and json.loads((self.folder / "run.json").read_text())["exit_reason"] in OVER
         except (OSError, ValueError, KeyError):
             return False
+
+    def is_same(self):
+        """Whether the folder is of this scene. Keys that one of the two does not have are of another version of the program."""
+        there, wanted = (flat(tomllib.loads(text)) for text in ((self.folder / "resolved.toml").read_text(), self.told.resolved))
+        return all(there[key] == value for key, value in wanted.items() if key in there)
 
     def fraction_done(self):
         """How much of the run lies in its series, from 0 to 1."""

@@ -18,7 +18,7 @@ from jostle_command import (BAD_INPUT, DONE, JOSTLE, NUMERICS, STOPPED, changed,
                             snapshot, started, wait_until, write_scene)
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "sweeps"), str(ROOT / "presentation")]
+sys.path += [str(ROOT / "sweeps"), str(ROOT / "presentation")]
 
 import extrapolate  # noqa: E402  (the path comes first)
 import points  # noqa: E402
