@@ -9,14 +9,11 @@
 #include <utility>
 
 #include "jostle/disk/durable_file.hpp"
-#include "jostle/measurement/series_columns.hpp"
-#include "jostle/measurement/summary.hpp"
 #include "jostle/run_files/h5md_writer.hpp"
 #include "jostle/run_files/version.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/units.hpp"
-#include "jostle/setup/free_clocks.hpp"
 #include "jostle/setup/largest_overlap.hpp"
 #include "jostle/setup/step_failure.hpp"
 #include "post_mortem.hpp"
@@ -54,16 +51,15 @@ H5mdAttributes trajectory_attributes(const RunScene& run_scene, const std::strin
 
 }  // namespace
 
-Run::Run(const RunOptions& options, const RunScene& scene, Simulation& simulation, RunFiles& files,
-         const RunDirectory& directory, StepSums sums, nlohmann::ordered_json start)
+Run::Run(const RunOptions& options, const RunScene& scene, Simulation& simulation, Measurement& measurement,
+         RunFiles& files, const RunDirectory& directory, nlohmann::ordered_json start)
     : options_(options),
       run_scene_(scene),
       scene_(scene.scene),
       simulation_(simulation),
+      measurement_(measurement),
       files_(files),
       directory_(directory),
-      sums_(std::move(sums)),
-      length_(scene_, simulation.settings().time_step, free_clocks(scene_, simulation.mobility(), simulation.rods())),
       record_(directory, options, std::move(start)),
       progress_(options.quiet || options.json) {
     simulation_.interrupt_when(
@@ -76,7 +72,7 @@ ExitCode Run::go() {
     stop_request::wait_for_steps();
     record_.write(simulation_, "running");
     show_progress();
-    while (!length_.is_over(files_.series())) {
+    while (!measurement_.is_complete()) {
         if (simulation_.rods().size() == 0) return die_out();
         StepReport report;
         report.step = simulation_.clock().step;
@@ -91,37 +87,28 @@ ExitCode Run::go() {
         longest_step_ = std::max(longest_step_, std::accumulate(report.seconds.begin(), report.seconds.end(), 0.0));
         if (const auto failure = step_failure(report, scene_, simulation_.rods()))
             return give_up(report, *failure, advice(report, scene_, simulation_));
-        sums_.add(report, simulation_);
+        const Due due = measurement_.add(report, simulation_);
         if (scene_.growth.rate > 0.0) files_.append_lineage(simulation_);
         if (simulation_.rods().size() == 0) continue;
-        write_what_is_due();
+        write_what_is_due(due);
         if (progress_.is_due()) show_progress();
         if (const std::string reason = reason_to_stop(); !reason.empty()) return stop_early(reason);
     }
     return finish();
 }
 
-void Run::write_what_is_due() {
-    const std::uint64_t step = simulation_.clock().step;
-    const auto due = [step](std::uint64_t every) { return every > 0 && step % every == 0; };
-    if (due(scene_.output.series_every)) {
-        sums_.look_at_swimmers(scene_, simulation_);
-        files_.append_row(series_row(simulation_, sums_));
-        if (scene_.output.contacts) files_.append_contacts(simulation_);
-        sums_.start_row();
-    }
-    if (due(scene_.output.trajectory_every)) files_.append_frame(simulation_);
-    if (due(scene_.output.field_every)) {
-        files_.append_field(simulation_, *sums_.field);
-        sums_.field->clear();
-    }
+void Run::write_what_is_due(const Due& due) {
+    if (due.row) files_.append_row(measurement_.last_row());
+    if (due.row && scene_.output.contacts) files_.append_contacts(simulation_);
+    if (due.frame) files_.append_frame(simulation_);
+    if (due.field) files_.append_field(measurement_.last_field());
     const bool is_overdue = std::chrono::steady_clock::now() - last_checkpoint_ > longest_between_checkpoints;
-    if (due(scene_.output.checkpoint_every) || is_overdue) checkpoint();
+    if (due.checkpoint || is_overdue) checkpoint();
 }
 
 void Run::checkpoint() {
     const auto begin = std::chrono::steady_clock::now();
-    files_.write_checkpoint(simulation_, sums_);
+    files_.write_checkpoint(simulation_, measurement_.sums());
     record_.write(simulation_, "running");  // what a session that is killed has done
     last_checkpoint_ = std::chrono::steady_clock::now();
     const std::chrono::duration<double> took = last_checkpoint_ - begin;
@@ -141,20 +128,20 @@ std::string Run::reason_to_stop() const {
 }
 
 void Run::show_progress(const std::string& remark) {
-    const SeriesTable& series = files_.series();
+    const SeriesTable& series = measurement_.series();
     const Rods& rods = simulation_.rods();
     const auto last = [&](const char* column) {
         return series.rows() == 0 ? std::nan("") : series.column(column).back();
     };
     progress_.show({simulation_.clock().step, simulation_.clock().time, total_volume(rods) / simulation_.box().volume(),
-                    last("Z"), sums_.run_max_overlap / smallest_diameter(scene_, rods), last("iterations"),
-                    last("contacts"), length_.fraction_done(series.rows()), remark});
+                    last("Z"), measurement_.sums().run_max_overlap / smallest_diameter(scene_, rods),
+                    last("iterations"), last("contacts"), measurement_.fraction_done(), remark});
 }
 
 void Run::write_trajectory() const {
     if (!files_.has_trajectory()) return;
     write_h5md(directory_.file("trajectory.journal"), directory_.file("trajectory.h5"),
-               trajectory_attributes(run_scene_, options_.command_line), &files_.series());
+               trajectory_attributes(run_scene_, options_.command_line), &measurement_.series());
 }
 
 ExitCode Run::stop_early(const std::string& reason) {
@@ -200,8 +187,7 @@ ExitCode Run::finish() {
     if (const auto failure = step_failure(last, scene_, simulation_.rods()))
         return give_up(last, *failure, advice(last, scene_, simulation_));
     write_trajectory();
-    const double overlap = std::max(sums_.run_max_overlap, last.max_overlap);
-    const auto summary = summarise(scene_, simulation_, files_.series(), overlap);
+    const auto summary = measurement_.summary(simulation_);
     const std::string text = sealed_json(summary);
     replace_file(directory_.file("summary.json"), text);
     record_.write(simulation_, "done");

@@ -4,8 +4,7 @@
 #include <string>
 
 #include "exit_code.hpp"
-#include "jostle/measurement/run_length.hpp"
-#include "jostle/measurement/step_sums.hpp"
+#include "jostle/measurement/measurement.hpp"
 #include "jostle/run_files/run_directory.hpp"
 #include "jostle/simulation/simulation.hpp"
 #include "progress_line.hpp"
@@ -17,16 +16,17 @@
 /// A run from its beginning, or from its checkpoint, to its end.
 class Run {
 public:
-    /// Holds references. `sums`: as they are where `simulation` stands. `start`: how that was made (start_entry); null
-    /// if the run goes on.
-    Run(const RunOptions& options, const RunScene& scene, jostle::Simulation& simulation, RunFiles& files,
-        const jostle::RunDirectory& directory, jostle::StepSums sums, nlohmann::ordered_json start = nullptr);
+    /// Holds references. `measurement`: as it is where `simulation` stands. `start`: how that was made (start_entry);
+    /// null if the run goes on.
+    Run(const RunOptions& options, const RunScene& scene, jostle::Simulation& simulation,
+        jostle::Measurement& measurement, RunFiles& files, const jostle::RunDirectory& directory,
+        nlohmann::ordered_json start = nullptr);
 
     /// Makes steps, and writes what is due, until the run is over or has to stop.
     ExitCode go();
 
 private:
-    void write_what_is_due();
+    void write_what_is_due(const jostle::Due& due);
     void checkpoint();
     bool wall_time_is_over(double still_to_be_done) const;
     std::string reason_to_stop() const;
@@ -41,10 +41,9 @@ private:
     const RunScene& run_scene_;
     const jostle::Scene& scene_;
     jostle::Simulation& simulation_;
+    jostle::Measurement& measurement_;
     RunFiles& files_;
     const jostle::RunDirectory& directory_;
-    jostle::StepSums sums_;
-    jostle::RunLength length_;
     RunRecord record_;
     ProgressLine progress_;
     std::chrono::steady_clock::time_point last_checkpoint_ = std::chrono::steady_clock::now();

@@ -74,9 +74,9 @@ ExitCode start_run(const RunOptions& options, const RunScene& scene, std::string
     if (options.fresh) folder = freed(folder, options.quiet);
     const RunDirectory directory(folder);
     write_scene(scene, directory);
-    const StepSums sums = first_sums(scene.scene, simulation);
-    RunFiles files(directory, scene.scene, scene.resolved, simulation, sums);
-    return Run(options, scene, simulation, files, directory, sums, start).go();
+    Measurement measurement(scene.scene, simulation);
+    RunFiles files(directory, scene.scene, scene.resolved, simulation, measurement.sums());
+    return Run(options, scene, simulation, measurement, files, directory, start).go();
 }
 
 ExitCode resume_run(const RunOptions& options, const RunScene& scene, const RunDirectory& directory,
@@ -86,7 +86,7 @@ ExitCode resume_run(const RunOptions& options, const RunScene& scene, const RunD
         checkpoint,
         in_scene_file(scene.path, [&] { return springs_from_file(scene.scene, scene.path, checkpoint.rods); }),
         scene.scene.motion.reversal_rate > 0.0, springs_path(scene.scene, scene.path));
-    const StepSums sums = StepSums::from_numbers(checkpoint.accumulators, scene.scene);
+    StepSums sums = StepSums::from_numbers(checkpoint.accumulators, scene.scene);
     RunFiles files(directory, scene.scene, scene.resolved, checkpoint);
     write_scene(scene, directory);  // it may have another end, and what was there may be damaged
     Simulation simulation =
@@ -94,7 +94,8 @@ ExitCode resume_run(const RunOptions& options, const RunScene& scene, const RunD
                  std::move(checkpoint.springs), std::move(checkpoint.last_forces));
     if (!options.quiet && !options.json)
         std::fprintf(stderr, "jostle: going on from step %llu\n", static_cast<unsigned long long>(checkpoint.step));
-    return Run(options, scene, simulation, files, directory, sums).go();
+    Measurement measurement(scene.scene, simulation, std::move(sums), read_series(directory.file("series.csv")));
+    return Run(options, scene, simulation, measurement, files, directory).go();
 }
 
 ExitCode start_or_resume(const RunOptions& options, const std::vector<Setting>& settings) {

@@ -7,63 +7,11 @@
 #include "jostle/disk/durable_file.hpp"
 #include "jostle/measurement/series_columns.hpp"
 #include "jostle/rods/space_filling_order.hpp"
-#include "jostle/scene/units.hpp"
-#include "jostle/simulation/contact_by_id.hpp"
 #include "jostle/stress/stress_per_rod.hpp"
 
 using namespace jostle;
 
 namespace {
-
-std::vector<SeriesColumn> contact_columns(const Scene& scene) {
-    const std::string length = unit_of(scene, dimension::length);
-    return {{"step", "1", "k", "number of steps done", ""},
-            {"id_i", "1", "i", "id of the first rod", ""},
-            {"id_j", "1", "j", "id of the second rod", ""},
-            {"image_x", "1", "", "box edges by which the second rod is displaced", ""},
-            {"image_y", "1", "", "box edges by which the second rod is displaced", ""},
-            {"image_z", "1", "", "box edges by which the second rod is displaced", ""},
-            {"force", unit_of(scene, dimension::force), "gamma", "contact force", "positive: repulsive"},
-            {"gap", length, "Phi", "gap before the step", "negative: overlap"},
-            {"normal_x", "1", "n", "unit vector from the first to the second rod", ""},
-            {"normal_y", "1", "n", "unit vector from the first to the second rod", ""},
-            {"normal_z", "1", "n", "unit vector from the first to the second rod", ""},
-            {"arm_i", length, "s_i", "position of the contact along the first rod's axis, from its centre", ""},
-            {"arm_j", length, "s_j", "position of the contact along the second rod's axis, from its centre", ""}};
-}
-
-std::vector<SeriesColumn> lineage_columns(const Scene& scene) {
-    return {{"step", "1", "k", "number of steps done", ""},
-            {"time", unit_of(scene, dimension::time), "t", "simulated time", ""},
-            {"birth", "1", "", "1: a cell was born; 0: it died", ""},
-            {"id", "1", "i", "id of the cell", ""},
-            {"mother", "1", "", "id of the cell that divided, and lives on behind it; of a death: its own id", ""},
-            {"length", unit_of(scene, dimension::length), "L", "length of the cell then", ""}};
-}
-
-std::vector<SeriesColumn> field_columns(const Scene& scene) {
-    const std::string length = unit_of(scene, dimension::length);
-    std::vector<SeriesColumn> columns = {
-        {"step", "1", "k", "number of steps done", ""},
-        {"time", unit_of(scene, dimension::time), "t", "simulated time", ""},
-        {"x", length, "", "centre of the cell; not a number: all that lies beyond open edges of the box", ""},
-        {"y", length, "", "centre of the cell", ""},
-        {"z", length, "", "centre of the cell", ""},
-        {"number_density", unit_of(scene, dimension::number_density), "n",
-         "rods per volume in the cell, mean over the steps since the last field", ""}};
-    for (const char* name : stress_column_names)
-        columns.push_back(
-            {name, unit_of(scene, dimension::stress), "Sigma_col",
-             "element of the collision stress in the cell (position, force), mean over the steps since the "
-             "last field",
-             "positive in compression"});
-    for (const char* name : orientation_stress_column_names)
-        columns.push_back({name, unit_of(scene, dimension::stress), "Sigma_ori",
-                           "element of the orientation stress in the cell, symmetric, mean over the steps since the "
-                           "last field",
-                           "positive in compression"});
-    return columns;
-}
 
 /// Tables beside the series.
 struct SideTable {
@@ -77,18 +25,12 @@ struct SideTable {
 enum : std::size_t { contacts_table, lineage_table, field_table };
 
 std::array<SideTable, 3> side_tables(const Scene& scene) {
-    return {{{"contacts", scene.output.contacts, contact_columns(scene), &Checkpoint::contacts_bytes,
+    return {{{"contacts", scene.output.contacts, contact_columns(scene).about(), &Checkpoint::contacts_bytes,
               &Checkpoint::contacts_hash},
-             {"lineage", scene.growth.rate > 0.0, lineage_columns(scene), &Checkpoint::lineage_bytes,
+             {"lineage", scene.growth.rate > 0.0, lineage_columns(scene).about(), &Checkpoint::lineage_bytes,
               &Checkpoint::lineage_hash},
-             {"field", scene.output.field_every > 0, field_columns(scene), &Checkpoint::field_bytes,
+             {"field", scene.output.field_every > 0, field_columns(scene).about(), &Checkpoint::field_bytes,
               &Checkpoint::field_hash}}};
-}
-
-std::vector<std::string> names_of(const std::vector<SeriesColumn>& columns) {
-    std::vector<std::string> names;
-    for (const SeriesColumn& column : columns) names.push_back(column.name);
-    return names;
 }
 
 /// The series, cut back to the checkpoint, after all files of the run were found to be sound.
@@ -100,7 +42,7 @@ SeriesFile resumed_series(const RunDirectory& directory, const Scene& scene, con
         if (table.wanted)
             SeriesFile::require_prefix(directory.file(table.name + ".csv"), table.columns, checkpoint.*table.bytes,
                                        checkpoint.*table.hash);
-    return SeriesFile::resume(directory.file("series.csv"), series_columns(scene), checkpoint.series_bytes,
+    return SeriesFile::resume(directory.file("series.csv"), series_columns(scene).about(), checkpoint.series_bytes,
                               checkpoint.series_hash);
 }
 
@@ -125,7 +67,7 @@ void write_descriptions(const RunDirectory& directory, const Scene& scene) {
 }  // namespace
 
 std::vector<DescribedTable> described_tables(const Scene& scene) {
-    std::vector<DescribedTable> tables = {{"series", series_columns(scene)}};
+    std::vector<DescribedTable> tables = {{"series", series_columns(scene).about()}};
     for (const SideTable& table : side_tables(scene))
         if (table.wanted) tables.push_back({table.name, table.columns});
     return tables;
@@ -136,9 +78,9 @@ RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::strin
     : directory_(directory),
       scene_(scene),
       resolved_scene_(std::move(resolved_scene)),
-      series_file_(SeriesFile::create(directory.file("series.csv"), series_columns(scene))) {
-    series_ = {directory.file("series.csv"), names_of(series_file_.columns()),
-               std::vector<std::vector<double>>(series_file_.columns().size())};
+      series_file_(SeriesFile::create(directory.file("series.csv"), series_columns(scene).about())),
+      contact_columns_(contact_columns(scene)),
+      lineage_columns_(lineage_columns(scene)) {
     if (scene.output.trajectory_every > 0) {
         const bool stress = scene.output.stress_per_rod;
         journal_ = TrajectoryJournal::create(
@@ -161,7 +103,8 @@ RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::strin
       scene_(scene),
       resolved_scene_(std::move(resolved_scene)),
       series_file_(resumed_series(directory, scene, checkpoint)),
-      series_(read_series(directory.file("series.csv"))) {
+      contact_columns_(contact_columns(scene)),
+      lineage_columns_(lineage_columns(scene)) {
     if (scene.output.trajectory_every > 0)
         journal_ = TrajectoryJournal::resume(directory.file("trajectory.journal"), checkpoint.trajectory_bytes,
                                              checkpoint.trajectory_hash);
@@ -175,7 +118,6 @@ RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::strin
 
 void RunFiles::append_row(const std::vector<double>& row) {
     series_file_.append(row);
-    for (std::size_t k = 0; k < row.size(); ++k) series_.columns[k].push_back(row[k]);
 }
 
 void RunFiles::append_frame(const Simulation& simulation) {
@@ -186,55 +128,19 @@ void RunFiles::append_frame(const Simulation& simulation) {
 }
 
 void RunFiles::append_contacts(const Simulation& simulation) {
-    for (std::size_t l = 0; l < simulation.contacts().size(); ++l) {
-        const double force = simulation.contact_solution().gamma[l];
-        if (force <= 0.0) continue;
-        const auto& [id, image, normal, arm] = contact_by_id(simulation, l);
-        const std::vector<double> row = {static_cast<double>(simulation.clock().step),
-                                         static_cast<double>(id[0]),
-                                         static_cast<double>(id[1]),
-                                         static_cast<double>(image[0]),
-                                         static_cast<double>(image[1]),
-                                         static_cast<double>(image[2]),
-                                         force,
-                                         simulation.contacts().contact[l].gap,
-                                         normal.x,
-                                         normal.y,
-                                         normal.z,
-                                         arm[0],
-                                         arm[1]};
-        side_files_[contacts_table]->append(row);
-    }
+    append(contacts_table, contact_rows(contact_columns_, simulation));
 }
 
 void RunFiles::append_lineage(const Simulation& simulation) {
-    const Clock& clock = simulation.clock();
-    for (const LineageEvent& event : simulation.lineage()) {
-        const std::vector<double> row = {static_cast<double>(clock.step),
-                                         clock.time,
-                                         event.kind == LineageEvent::Kind::birth ? 1.0 : 0.0,
-                                         static_cast<double>(event.id),
-                                         static_cast<double>(event.mother),
-                                         event.length};
-        side_files_[lineage_table]->append(row);
-    }
+    append(lineage_table, lineage_rows(lineage_columns_, simulation));
 }
 
-void RunFiles::append_field(const Simulation& simulation, const StressField& field) {
-    const auto append = [&](const Vec3& centre, const StressField::Content& content) {
-        std::vector<double> row = {static_cast<double>(simulation.clock().step),
-                                   simulation.clock().time,
-                                   centre.x,
-                                   centre.y,
-                                   centre.z,
-                                   content.number_density};
-        row.insert(row.end(), content.collision.m.begin(), content.collision.m.end());
-        append_upper(row, content.orientation);
-        side_files_[field_table]->append(row);
-    };
-    for (std::size_t cell = 0; cell < field.size(); ++cell) append(field.centre(cell), field.mean(cell));
-    const double nowhere = std::numeric_limits<double>::quiet_NaN();
-    if (field.has_outside()) append({nowhere, nowhere, nowhere}, field.outside_mean());
+void RunFiles::append_field(const TableRows& rows) {
+    append(field_table, rows);
+}
+
+void RunFiles::append(std::size_t table, const TableRows& rows) {
+    for (const std::vector<double>& row : rows) side_files_[table]->append(row);
 }
 
 void RunFiles::write_checkpoint(const Simulation& simulation, const StepSums& sums) {

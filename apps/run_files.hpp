@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "jostle/measurement/side_tables.hpp"
 #include "jostle/measurement/step_sums.hpp"
 #include "jostle/run_files/checkpoint.hpp"
 #include "jostle/run_files/run_directory.hpp"
@@ -38,24 +39,24 @@ public:
     void append_frame(const jostle::Simulation& simulation);
     /// The contacts with a force in the last step.
     void append_contacts(const jostle::Simulation& simulation);
-    /// The stress field: a row a cell, and one of what lies outside where the box is open.
-    void append_field(const jostle::Simulation& simulation, const jostle::StressField& field);
+    void append_field(const jostle::TableRows& rows);
     /// Who was born and who died after the last step.
     void append_lineage(const jostle::Simulation& simulation);
 
     /// Makes everything so far durable, and the point to go on from.
     void write_checkpoint(const jostle::Simulation& simulation, const jostle::StepSums& sums);
 
-    /// All rows so far.
-    const jostle::SeriesTable& series() const { return series_; }
     bool has_trajectory() const { return journal_.has_value(); }
 
 private:
+    void append(std::size_t table, const jostle::TableRows& rows);
+
     const jostle::RunDirectory& directory_;
     const jostle::Scene& scene_;
     std::string resolved_scene_;
     jostle::SeriesFile series_file_;
-    jostle::SeriesTable series_;
     std::optional<jostle::TrajectoryJournal> journal_;
     std::array<std::optional<jostle::SeriesFile>, 3> side_files_;  ///< contacts, lineage, field
+    jostle::TableColumns<jostle::ContactState> contact_columns_;
+    jostle::TableColumns<jostle::LineageState> lineage_columns_;
 };

@@ -13,6 +13,7 @@ void bind_lcp(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
 void bind_rods(pybind11::module_& module);
 void bind_simulation(pybind11::module_& module);
+void bind_statistics(pybind11::module_& module);
 void bind_trajectory(pybind11::module_& module);
 
 }  // namespace jostle::python

@@ -19,5 +19,6 @@ PYBIND11_MODULE(_jostle, module) {
     python::bind_scene(module);
     python::bind_rods(module);
     python::bind_simulation(module);
+    python::bind_statistics(module);
     python::bind_trajectory(module);
 }

@@ -6,6 +6,7 @@
 #include "bindings/python_motion.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/measurement/series_columns.hpp"
+#include "jostle/measurement/side_tables.hpp"
 #include "jostle/scene/validate_scene.hpp"
 #include "jostle/scene_file/rods_of_scene.hpp"
 #include "jostle/scene_file/scene_reader.hpp"
@@ -47,13 +48,13 @@ private:
 };
 
 SimulationInPython::SimulationInPython(SceneInPython scene)
-    : scene_(std::move(scene)), simulation_(at_the_start(scene_)), sums_(first_sums(scene_.scene, simulation_)) {}
+    : scene_(std::move(scene)), simulation_(at_the_start(scene_)), measurement_(scene_.scene, simulation_) {}
 
 SimulationInPython::SimulationInPython(SceneInPython scene, Checkpoint checkpoint)
     : scene_(std::move(scene)),
       simulation_(assemble(scene_.scene, checkpoint.box, std::move(checkpoint.rods), {checkpoint.step, checkpoint.time},
                            std::move(checkpoint.springs), std::move(checkpoint.last_forces))),
-      sums_(StepSums::from_numbers(checkpoint.accumulators, scene_.scene)) {}
+      measurement_(scene_.scene, simulation_, StepSums::from_numbers(checkpoint.accumulators, scene_.scene)) {}
 
 void SimulationInPython::step() {
     require_between_steps();
@@ -70,22 +71,18 @@ void SimulationInPython::step() {
         }
         failure_ = step_failure(*report_, scene_.scene, simulation_.rods()).value_or("");
         if (report_->status != LcpStatus::converged) return;
-        sums_.add(*report_, simulation_);
-        const Scene::Output& output = scene_.scene.output;
-        if (simulation_.clock().step % output.series_every == 0) write_row();
-        if (sums_.field && simulation_.clock().step % output.field_every == 0) sums_.field->clear();
+        measurement_.add(*report_, simulation_);
     }
 }
 
-void SimulationInPython::write_row() {
-    if (simulation_.rods().size() == 0) return;
-    sums_.look_at_swimmers(scene_.scene, simulation_);
-    rows_.push_back(series_row(simulation_, sums_));
-    sums_.start_row();
+bool SimulationInPython::is_complete() {
+    require_rest();
+    return measurement_.is_complete();
 }
 
-bool SimulationInPython::run(std::uint64_t steps) {
+bool SimulationInPython::run(std::uint64_t steps, bool to_the_end) {
     for (std::uint64_t k = 0; k < steps && simulation().rods().size() > 0; ++k) {
+        if (to_the_end && measurement_.is_complete()) break;
         step();
         if (!failure_.empty()) return false;
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -194,16 +191,38 @@ std::string SimulationInPython::failure() const {
 
 py::array SimulationInPython::series() const {
     require_rest();
-    const auto columns = static_cast<py::ssize_t>(series_columns(scene_.scene).size());
-    Numbers table({static_cast<py::ssize_t>(rows_.size()), columns});
+    const auto& columns = measurement_.series().columns;
+    const std::size_t rows = measurement_.series().rows();
+    Numbers table({static_cast<py::ssize_t>(rows), static_cast<py::ssize_t>(columns.size())});
     double* place = table.mutable_data();
-    for (const std::vector<double>& row : rows_) place = std::copy(row.begin(), row.end(), place);
+    for (std::size_t row = 0; row < rows; ++row)
+        for (const std::vector<double>& column : columns) *place++ = column[row];
     return table;
+}
+
+py::array SimulationInPython::last_field() const {
+    require_rest();
+    const TableRows& rows = measurement_.last_field();
+    const std::size_t columns = field_columns(scene_.scene).columns.size();
+    Numbers table({static_cast<py::ssize_t>(rows.size()), static_cast<py::ssize_t>(columns)});
+    double* place = table.mutable_data();
+    for (const std::vector<double>& row : rows) place = std::copy(row.begin(), row.end(), place);
+    return table;
+}
+
+std::string SimulationInPython::summary() const {
+    require_between_steps();
+    return measurement_.summary(simulation_).dump();
+}
+
+std::size_t SimulationInPython::row_count() const {
+    require_rest();
+    return measurement_.series().rows();
 }
 
 void SimulationInPython::save(const std::string& folder) const {
     require_between_steps();  // within a motion cells have grown, and the clock has not moved
-    write_checkpoint(folder, checkpoint_of(simulation(), sums_, to_toml(scene_.scene)));
+    write_checkpoint(folder, checkpoint_of(simulation(), measurement_.sums(), to_toml(scene_.scene)));
 }
 
 int SimulationInPython::traverse(visitproc visit, void* argument) const {
@@ -254,11 +273,12 @@ py::list lineage_of(const SimulationInPython& self) {
     return events;
 }
 
-std::vector<std::array<std::string, 5>> columns_of(const SimulationInPython& self) {
-    std::vector<std::array<std::string, 5>> columns;
-    for (const SeriesColumn& column : series_columns(self.scene().scene))
-        columns.push_back({column.name, column.unit, column.symbol, column.definition, column.sign});
-    return columns;
+/// Name, unit, symbol, definition and sign of each.
+std::vector<std::array<std::string, 5>> described(const std::vector<SeriesColumn>& columns) {
+    std::vector<std::array<std::string, 5>> texts;
+    for (const SeriesColumn& column : columns)
+        texts.push_back({column.name, column.unit, column.symbol, column.definition, column.sign});
+    return texts;
 }
 
 /// Lets the garbage collector see the functions that a simulation holds, which may hold the simulation.
@@ -292,7 +312,14 @@ void bind_simulation(py::module_& module) {
         .def("velocities", &SimulationInPython::velocities)
         .def("contacts", &SimulationInPython::contacts)
         .def("series", &SimulationInPython::series)
-        .def("columns", &columns_of)
+        .def("columns",
+             [](const SimulationInPython& self) { return described(series_columns(self.scene().scene).about()); })
+        .def("row_count", &SimulationInPython::row_count)
+        .def("is_complete", &SimulationInPython::is_complete)
+        .def("summary", &SimulationInPython::summary)
+        .def("last_field", &SimulationInPython::last_field)
+        .def("field_columns",
+             [](const SimulationInPython& self) { return described(field_columns(self.scene().scene).about()); })
         .def("save", &SimulationInPython::save)
         .def("report", &report_of)
         .def("failure", &SimulationInPython::failure)

@@ -4,13 +4,13 @@
 
 #include "bindings/rods_in_order.hpp"
 #include "bindings/scene.hpp"
-#include "jostle/measurement/step_sums.hpp"
+#include "jostle/measurement/measurement.hpp"
 #include "jostle/run_files/checkpoint.hpp"
 #include "jostle/simulation/simulation.hpp"
 
 namespace jostle::python {
 
-/// A simulation with the rows of its series, as `jostle run` keeps them; makes its steps without the interpreter.
+/// A simulation with what is measured of it, as `jostle run` does; makes its steps without the interpreter.
 ///
 /// Between steps it is whole, whatever ended the last one: what belongs to a step (rods, clock, sums, row) is done in
 /// one go, and signals are looked at only after it. Where a step throws once rods have moved, no other is made.
@@ -22,9 +22,10 @@ public:
     /// One step. Throws std::runtime_error where a step is under way, one has ended half way, or no rods are left. A
     /// step that fails is told by the report; where its contacts could not be resolved nothing has changed.
     void step();
-    /// At most so many steps, until no rods are left or one fails; false if one failed. Throws what signal handlers
-    /// raise.
-    bool run(std::uint64_t steps);
+    /// At most so many steps, until no rods are left or one fails, and with `to_the_end` until the series is complete;
+    /// false if one failed. Throws what signal handlers raise.
+    bool run(std::uint64_t steps, bool to_the_end);
+    bool is_complete();
 
     /// `function(context)` gives (N, 6) velocities; see PythonMotion.
     void add_motion(py::function function);
@@ -36,7 +37,10 @@ public:
     std::string failure() const;  ///< of the last step; "" if it was sound
     py::array velocities(const Numbers& force, const Numbers& torque);
     py::dict contacts() const;
-    py::array series() const;  ///< (rows, columns)
+    py::array series() const;      ///< (rows, columns)
+    py::array last_field() const;  ///< (rows, columns); (0, columns) before the first
+    std::string summary() const;   ///< JSON
+    std::size_t row_count() const;
     void save(const std::string& folder) const;
 
     int traverse(visitproc visit, void* argument) const;
@@ -47,12 +51,10 @@ private:
     void require_rest() const;
     void require_between_steps() const;
     void require_whole() const;
-    void write_row();
 
     SceneInPython scene_;
     Simulation simulation_;
-    StepSums sums_;
-    std::vector<std::vector<double>> rows_;
+    Measurement measurement_;
     std::vector<py::function> functions_;  ///< here, not in the motions, where the garbage collector can see them
     std::shared_ptr<RodsInOrder> rods_;    ///< empty until they are asked for
     std::optional<StepReport> report_;

@@ -9,6 +9,7 @@
     solve_lcp               linear complementarity problems
     Scene, Simulation       what `jostle run` does, step by step
     load                    what `jostle run` left
+    average                 mean and standard error of a correlated series
 
 Errors are InputError (a ValueError), StepFailure (a RuntimeError) and DiskError (an OSError). Arguments are converted
 from whole numbers and float32; truth values, complex numbers, texts, NaN and infinity are refused.
@@ -23,10 +24,11 @@ from .lcp import LcpResult, solve_lcp
 from .run import Run, load
 from .scene import Scene
 from .simulation import Simulation, StepFailure, StepReport
+from .statistics import Average, average
 from .stress import ContactStress, PairStress, collision_stress, contact_stress, orientation_stress, pair_stress
 from .threads import set_thread_count, thread_count
 
-__all__ = ["Body", "ContactStress", "DiskError", "InputError", "LcpResult", "PairStress", "Run", "Scene",
-           "Simulation", "StepFailure", "StepReport", "body_moments", "collision_stress", "combined",
+__all__ = ["Average", "Body", "ContactStress", "DiskError", "InputError", "LcpResult", "PairStress", "Run", "Scene",
+           "Simulation", "StepFailure", "StepReport", "average", "body_moments", "collision_stress", "combined",
            "contact_stress", "load", "orientation_stress", "pair_stress", "segment_distance", "set_thread_count", "solve_lcp",
            "thread_count"]

@@ -1,5 +1,6 @@
 """Simulations, step by step."""
 
+import json
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -84,6 +85,7 @@ class Simulation:
     gone, when rows are renumbered and when cells divide or die. Keep `id` to follow a rod.
 
     Series. Every `output.series_every` steps a row is added to `series`, the one that `jostle run` writes, bit for bit.
+    `summary()` averages them, and gives the error bars of summary.json.
 
     Threads. Steps are made without Python's global lock. Another thread that looks at the simulation then gets a
     RuntimeError. `set_thread_count` sets how many threads a step uses; results do not depend on it.
@@ -93,7 +95,7 @@ class Simulation:
     >>> scene = Scene(seed=3, box={"volume_fraction": 0.3}, rods={"count": 60, "length": 1.0},
     ...               time={"production": 1.0})
     >>> simulation = Simulation(scene)
-    >>> rows = simulation.run(20)
+    >>> rows = simulation.run(20)                         # simulation.run() makes all steps that the scene asks for
     >>> rows["step"], bool(rows["Z"][-1] > 1)
     (array([10., 20.]), True)
     >>> simulation.rods.centre.shape, simulation.clock.step
@@ -147,12 +149,14 @@ class Simulation:
         self._require_success()
         return self.report
 
-    def run(self, steps, *, every=None, callback=None):
+    def run(self, steps=None, *, every=None, callback=None):
         """Makes steps, fewer if no cells are left, and returns the rows that they added to the series.
 
         Parameters
         ----------
         steps : int, >= 0
+            By default as many as `jostle run` makes: until `time.equilibration` and `time.production` are over, or with
+            equilibration = "auto" until the series has settled for so long.
         callback : function of the simulation, optional
             Called after every step whose number is a multiple of `every`.
         every : int, >= 1
@@ -168,12 +172,13 @@ class Simulation:
         >>> seen
         [3, 6]
         """
-        left = whole_number("steps", steps, 0)
+        to_the_end = steps is None
+        left = 2**62 if to_the_end else whole_number("steps", steps, 0)
         every = self.scene.output.series_every if every is None else whole_number("every", every, 1)
-        before = len(self._core.series())
-        while left > 0 and len(self) > 0:
+        before = self._core.row_count()
+        while left > 0 and len(self) > 0 and not (to_the_end and self._core.is_complete()):
             portion = left if callback is None else min(left, every - self.clock.step % every)
-            self._core.run(portion)
+            self._core.run(portion, to_the_end)
             self._require_success()
             left -= portion
             if callback is not None and self.clock.step % every == 0:
@@ -290,6 +295,34 @@ class Simulation:
         """Of the series: name -> dict of unit, symbol, definition, sign."""
         return {name: dict(zip(("unit", "symbol", "definition", "sign"), rest))
                 for name, *rest in self._core.columns()}
+
+    def summary(self):
+        """Averages of the rows so far with their error bars: a dict, the content of summary.json (docs/guide/results.md).
+
+        It holds mean, standard_error and n_eff of Z, pressure, stress, order and others over the rows of production, the
+        verdict on equilibrium, and checks of the stress. Rows of before `resume` are not among them. Without equilibrium
+        there are no error bars: standard_error is None, and `no_standard_error_because` tells why.
+
+        Raises InputError where no row is of production yet.
+
+        >>> scene = Scene(box={"volume_fraction": 0.1}, rods={"count": 50, "length": 0},
+        ...               time={"equilibration": 1.0, "production": 12.0})
+        >>> simulation = Simulation(scene)
+        >>> rows = simulation.run()
+        >>> Z = simulation.summary()["Z"]
+        >>> bool(abs(Z["mean"] - 1.52) < 4 * Z["standard_error"])            # Carnahan and Starling
+        True
+        """
+        return json.loads(self._core.summary())
+
+    @property
+    def field(self):
+        """The last stress field that is complete, with `output.field_every`: the rows of field.csv as a structured array,
+        means over the steps since the field before; None before the first."""
+        rows = self._core.last_field()
+        if len(rows) == 0:
+            return None
+        return rows.view(np.dtype([(column[0], float) for column in self._core.field_columns()]))[:, 0]
 
     def velocities(self, force=0.0, torque=0.0):
         """What forces and torques on the rods make of their velocities, by the mobility of the scene.

@@ -8,7 +8,7 @@ import pytest
 
 import jostle
 
-MODULES = ("bodies", "contact", "lcp", "run", "scene", "simulation", "stress", "threads")
+MODULES = ("bodies", "contact", "lcp", "run", "scene", "simulation", "statistics", "stress", "threads")
 
 
 @pytest.mark.parametrize("name", MODULES)
@@ -19,7 +19,7 @@ def test_examples_of(name):
     assert found.failed == 0
 
 
-@pytest.mark.parametrize("name", sorted(set(jostle.__all__) - {"ContactStress", "DiskError", "LcpResult", "PairStress", "Run",
+@pytest.mark.parametrize("name", sorted(set(jostle.__all__) - {"Average", "ContactStress", "DiskError", "LcpResult", "PairStress", "Run",
                                                                "StepFailure", "StepReport", "InputError"}))
 def test_has_an_example(name):
     offered = getattr(jostle, name)

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "jostle/measurement/series_columns.hpp"
 #include "jostle/measurement/summary_entries.hpp"
 #include "jostle/statistics/equilibration.hpp"
+#include "jostle/stress/column_names.hpp"
 
 namespace jostle {
 
@@ -16,9 +16,9 @@ namespace {
 using Verdict = EquilibriumCheck::Verdict;
 
 /// Rows are means over the steps before them: the first of the window begins at the end of equilibration or later.
-std::size_t first_row_after(const std::vector<double>& time, double equilibration) {
+std::size_t first_row_after(const std::vector<double>& time, double begin, double equilibration) {
     std::size_t row = 0;
-    while (row < time.size() && (row == 0 ? 0.0 : time[row - 1]) < equilibration * (1.0 - 1e-12)) ++row;
+    while (row < time.size() && (row == 0 ? begin : time[row - 1]) < equilibration * (1.0 - 1e-12)) ++row;
     return row;
 }
 
@@ -30,10 +30,11 @@ WatchedColumn watched(const SeriesTable& series, std::size_t first, const char* 
     return {words, std::move(rows)};
 }
 
-ProductionSeries production_series(const Scene& scene, const SeriesTable& series, std::size_t first, bool turn) {
+ProductionSeries production_series(const Scene& scene, const SeriesTable& series, double begin, std::size_t first,
+                                   bool turn) {
     const std::vector<double>& time = series.column("time");
     ProductionSeries production;
-    production.row_time = time.empty() ? 0.0 : time.back() / static_cast<double>(time.size());
+    production.row_time = time.empty() ? 0.0 : (time.back() - begin) / static_cast<double>(time.size());
     production.watched = {watched(series, first, "pressure_collision", "collision pressure")};
     if (!scene.springs.file.empty())
         production.watched.push_back(watched(series, first, "pressure_springs", "pressure of springs"));
@@ -47,20 +48,21 @@ ProductionSeries production_series(const Scene& scene, const SeriesTable& series
 
 }  // namespace
 
-ProductionWindow production_window(const Scene& scene, const SeriesTable& series, const FreeClocks& clocks) {
+ProductionWindow production_window(const Scene& scene, const SeriesTable& series, const FreeClocks& clocks,
+                                   double begin) {
     const std::vector<double>& time = series.column("time");
     ProductionWindow window;
     bool found = true;
     if (scene.time.equilibration) {
         window.equilibration_time = *scene.time.equilibration;
-        window.first_row = first_row_after(time, window.equilibration_time);
+        window.first_row = first_row_after(time, begin, window.equilibration_time);
     } else {
         // The order may still be drifting when the pressure has settled, so the later start counts. But its own slow
         // fluctuations leave few independent samples even in equilibrium: whether it was reached, the pressure says.
         const Equilibration by_pressure = detect_equilibration(series.column("pressure_collision"));
         const Equilibration by_order = detect_equilibration(series.column("nematic_order"));
         window.first_row = std::max(by_pressure.start, by_order.start);
-        window.equilibration_time = window.first_row == 0 ? 0.0 : time[window.first_row - 1];
+        window.equilibration_time = window.first_row == 0 ? begin : time[window.first_row - 1];
         found = by_pressure.reached;
     }
     if (scene.growth.rate > 0.0) {
@@ -68,7 +70,7 @@ ProductionWindow production_window(const Scene& scene, const SeriesTable& series
         return window;
     }
     const bool turn = clocks.rotation > 0.0;
-    window.equilibrium = check_equilibrium(production_series(scene, series, window.first_row, turn), clocks);
+    window.equilibrium = check_equilibrium(production_series(scene, series, begin, window.first_row, turn), clocks);
     if (window.equilibrated() && !found) {
         window.equilibrium.verdict = Verdict::drifting;
         window.equilibrium.reason = "the collision pressure drifts, or is worth too few independent rows";

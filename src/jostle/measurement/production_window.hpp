@@ -17,7 +17,9 @@ struct ProductionWindow {
     bool equilibrated() const { return equilibrium.verdict == EquilibriumCheck::Verdict::reached; }
 };
 
-/// The window of production at the end of the series as it is, or where equilibration has to be found in it.
-ProductionWindow production_window(const Scene& scene, const SeriesTable& series, const FreeClocks& clocks);
+/// The window of production at the end of the series as it is, or where equilibration has to be found in it. `begin`:
+/// time at which the first row begins.
+ProductionWindow production_window(const Scene& scene, const SeriesTable& series, const FreeClocks& clocks,
+                                   double begin = 0.0);
 
 }  // namespace jostle

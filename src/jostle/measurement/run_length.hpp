@@ -11,7 +11,8 @@ namespace jostle {
 /// Decides, from the series alone, when a run has all that it was asked for.
 class RunLength {
 public:
-    RunLength(const Scene& scene, double time_step, const FreeClocks& clocks);
+    /// `begin`: time at which the first row of the series that will be shown begins.
+    RunLength(const Scene& scene, double time_step, const FreeClocks& clocks, double begin = 0.0);
 
     bool is_over(const SeriesTable& series);
 
@@ -19,11 +20,13 @@ public:
     double fraction_done(std::size_t rows) const;
 
 private:
-    const Scene& scene_;
+    Scene scene_;
+    double begin_;
     FreeClocks clocks_;
     bool can_be_long_enough_ = true;  ///< else more time would only end in the same words
     std::size_t production_rows_ = 1;
-    std::size_t fixed_rows_ = 0;  ///< 0: equilibration is detected
+    std::size_t fixed_rows_ = 0;   ///< 0: equilibration is detected
+    std::size_t rows_before_ = 0;  ///< `begin`
     std::size_t rows_looked_at_ = 0;
 };
 

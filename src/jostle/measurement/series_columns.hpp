@@ -3,20 +3,30 @@
 #include <vector>
 
 #include "jostle/measurement/step_sums.hpp"
-#include "jostle/run_files/series_file.hpp"
+#include "jostle/measurement/table_columns.hpp"
 #include "jostle/scene/scene.hpp"
 #include "jostle/simulation/simulation.hpp"
+#include "jostle/statistics/order_parameter.hpp"
 #include "jostle/stress/column_names.hpp"
+#include "jostle/stress/stress.hpp"
 
 namespace jostle {
 
-/// Appends the elements xx xy xz yy yz zz of a symmetric tensor.
-void append_upper(std::vector<double>& row, const Mat3& tensor);
+/// What the values of a row of the series are taken from: the state at the row's step, and the sums over the steps
+/// since the last row. What several columns share is found once.
+struct RowState {
+    /// Holds references. `sums.steps` > 0, and there are rods.
+    RowState(const Simulation& simulation, const StepSums& sums);
 
-/// The columns of series.csv, with unit, definition and sign of each.
-std::vector<SeriesColumn> series_columns(const Scene& scene);
+    const Simulation& simulation;
+    const StepSums& sums;
+    double volume;       ///< of the box
+    double density;      ///< rods per volume, mean over the steps: cells may have divided since the last row
+    Stress stress;       ///< mean over the steps; the orientation stress at this step
+    NematicOrder order;  ///< at this step
+};
 
-/// One row: means over the steps in `sums`, and order and orientation stress of the rods as they are now.
-std::vector<double> series_row(const Simulation& simulation, const StepSums& sums);
+/// The columns of series.csv, in their order: name, unit, symbol, definition, sign and value of each.
+TableColumns<RowState> series_columns(const Scene& scene);
 
 }  // namespace jostle

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "jostle/measurement/series_columns.hpp"
+#include "jostle/stress/column_names.hpp"
 
 namespace jostle {
 

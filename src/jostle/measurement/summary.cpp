@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "jostle/error/input_error.hpp"
 #include "jostle/math/symmetric_eigen.hpp"
 #include "jostle/measurement/production_window.hpp"
-#include "jostle/measurement/series_columns.hpp"
 #include "jostle/measurement/stress_columns.hpp"
 #include "jostle/measurement/stress_ratio_checks.hpp"
 #include "jostle/measurement/summary_entries.hpp"
@@ -15,6 +16,7 @@
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/units.hpp"
 #include "jostle/setup/free_clocks.hpp"
+#include "jostle/stress/column_names.hpp"
 #include "jostle/stress/stress.hpp"
 
 namespace jostle {
@@ -101,17 +103,34 @@ double without_rounding(double value) {
     return std::stod(fmt::format("{:.12g}", value));
 }
 
+[[noreturn]] void refuse_to_average(std::string problem, std::string suggestion) {
+    throw InputError({.key = "summary", .problem = std::move(problem), .suggestion = std::move(suggestion)});
+}
+
 Json box_entry(const Scene& scene, const Box& box) {
     return {{"edges", {box.edges.x, box.edges.y, box.edges.z}},
             {"periodic", scene.box.periodic},
             {"unit", unit_of(scene, dimension::length)}};
 }
 
+/// The window of the rows so far.
+ProductionWindow window_of(const Scene& scene, const Simulation& simulation, const SeriesTable& series, double begin) {
+    if (simulation.rods().size() == 0) refuse_to_average("all cells have died", "");
+    if (series.rows() == 0) refuse_to_average("the series has no row yet", "Make more steps");
+    ProductionWindow window =
+        production_window(scene, series, free_clocks(scene, simulation.mobility(), simulation.rods()), begin);
+    if (window.first_row >= series.rows())
+        refuse_to_average(fmt::format("no row is of production: equilibration takes a time of {:.6g}, and it is {:.6g}",
+                                      window.equilibration_time, simulation.clock().time),
+                          "Make more steps");
+    return window;
+}
+
 }  // namespace
 
-Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTable& series, double run_max_overlap) {
-    const ProductionWindow window =
-        production_window(scene, series, free_clocks(scene, simulation.mobility(), simulation.rods()));
+Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTable& series, double run_max_overlap,
+               double begin) {
+    const ProductionWindow window = window_of(scene, simulation, series, begin);
     const std::size_t first = window.first_row;
     const std::string stress_unit = unit_of(scene, dimension::stress);
     const Rods& rods = simulation.rods();
