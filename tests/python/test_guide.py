@@ -13,7 +13,7 @@ def blocks(page):
     return re.findall(r"^```python\n(.*?)^```", (GUIDE / page).read_text(), re.MULTILINE | re.DOTALL)
 
 
-@pytest.mark.parametrize("page, count", [("python.md", 2), ("stress_formula.md", 4)])
+@pytest.mark.parametrize("page, count", [("python.md", 3), ("stress_formula.md", 4)])
 def test_blocks_run(page, count, run_of_rods, tmp_path, monkeypatch):
     shutil.copytree(run_of_rods, tmp_path / "rods.run")
     monkeypatch.chdir(tmp_path)
