@@ -121,7 +121,7 @@ void RunFiles::append_row(const std::vector<double>& row) {
 }
 
 void RunFiles::append_frame(const Simulation& simulation) {
-    const Rods rods = reordered(simulation.rods(), id_order(simulation.rods()));
+    const Rods rods = in_order_of_ids(simulation.rods());
     std::vector<Mat3> stress;
     if (scene_.output.stress_per_rod) stress = stress_of_last_step(simulation, rods.id);
     journal_->append(simulation.clock().step, simulation.clock().time, simulation.box(), rods, stress);

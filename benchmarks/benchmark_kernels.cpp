@@ -64,7 +64,7 @@ struct PosedProblem {
 
     std::unique_ptr<Simulation> simulation;
     const Contacts& contacts;
-    ContactMatrix contact_matrix{contacts, simulation->rods().size()};
+    ContactMatrix contact_matrix{contacts, simulation->rods().id};
     DelassusOperator matrix{contact_matrix, simulation->rods(), simulation->mobility(), contact_compliance};
     std::vector<double> b;
 };

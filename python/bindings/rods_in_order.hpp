@@ -12,7 +12,7 @@ namespace jostle::python {
 /// be a view on them (decision 0021).
 class RodsInOrder {
 public:
-    explicit RodsInOrder(const Rods& rods) : rods_(reordered(rods, id_order(rods))) {}
+    explicit RodsInOrder(const Rods& rods) : rods_(in_order_of_ids(rods)) {}
 
     const Rods& rods() const { return rods_; }
 

@@ -156,17 +156,18 @@ py::dict SimulationInPython::contacts() const {
     const py::ssize_t rows = static_cast<py::ssize_t>(count);
     py::array_t<std::uint64_t> id({rows, py::ssize_t{2}});
     py::array_t<std::int32_t> image({rows, py::ssize_t{3}});
-    std::vector<double> arm_i(count), arm_j(count), gap(count), force(simulation_.contact_solution().gamma);
+    std::vector<double> arm_i(count), arm_j(count), gap(count), force(count);
     std::vector<Vec3> normal(count);
-    force.resize(count);
+    const auto order = order_of_ids(simulation_.contacts(), simulation_.contact_ids());
     for (std::size_t l = 0; l < count; ++l) {
-        const ContactById contact = contact_by_id(simulation_, l);
+        const ContactById contact = contact_by_id(simulation_, order[l]);
         std::copy(contact.id.begin(), contact.id.end(), id.mutable_data(static_cast<py::ssize_t>(l), 0));
         std::copy(contact.image.begin(), contact.image.end(), image.mutable_data(static_cast<py::ssize_t>(l), 0));
         normal[l] = contact.normal;
         arm_i[l] = contact.arm[0];
         arm_j[l] = contact.arm[1];
-        gap[l] = simulation_.contacts().contact[l].gap;
+        gap[l] = simulation_.contacts().contact[order[l]].gap;
+        force[l] = simulation_.contact_solution().gamma[order[l]];
     }
     py::dict columns;
     columns["id"] = id;

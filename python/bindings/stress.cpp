@@ -94,7 +94,7 @@ py::array sum_over_contacts(const Numbers& axis, const Numbers& length, const Nu
     const Rods rods = rods_of(axis, length, diameter);
     const Contacts contacts = contacts_of(i, j, normal, arm_i, arm_j, gap, rods.size());
     const py::gil_scoped_release release;
-    const ContactMatrix matrix(contacts, rods.size());
+    const ContactMatrix matrix(contacts, rods.id);
     std::vector<ContactForce> forces(matrix.rods().size());
     matrix.apply(numbers_in(force, "force"), forces);
     std::vector<Vec3> torques(forces.size());

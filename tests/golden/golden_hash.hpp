@@ -25,6 +25,9 @@ private:
         static_assert(std::has_unique_object_representations_v<Number> || std::is_floating_point_v<Number>);
         checksum_.add({reinterpret_cast<const char*>(&number), sizeof number});
     }
+    void add_one(const std::vector<double>& numbers) {
+        for (const double number : numbers) add_one(number);
+    }
     void add_one(const Vec3& vector) { add(vector.x, vector.y, vector.z); }
     void add_one(const Mat3& matrix) {
         for (int row = 0; row < 3; ++row)
@@ -61,7 +64,8 @@ inline std::uint64_t state_hash(const Simulation& simulation) {
 inline void add_results(Hash& hash, const StepReport& report, const Simulation& simulation) {
     hash.add(report.collision_virial, report.spring_virial, report.max_overlap, report.residual, report.iterations,
              report.contacts, report.active_contacts);
-    for (const double gamma : simulation.contact_solution().gamma) hash.add(gamma);
+    for (const std::size_t l : order_of_ids(simulation.contacts(), simulation.contact_ids()))
+        hash.add(simulation.contact_solution().gamma[l]);
 }
 
 }  // namespace jostle

@@ -25,15 +25,9 @@ namespace {
 constexpr std::array<int, 3> thread_counts = {1, 2, 4};
 
 /// Below, at and above the limit where loops start threads, and not a multiple of a block.
-constexpr std::array<std::size_t, 9> counts = {0,
-                                               1,
-                                               7,
-                                               parallel::sum_block,
-                                               parallel::serial_limit - 1,
-                                               parallel::serial_limit,
-                                               parallel::serial_limit + 1,
-                                               2000,
-                                               100'003};
+constexpr std::array<std::size_t, 9> counts = {
+    0,    1,      7, std::size_t{256}, parallel::serial_limit - 1, parallel::serial_limit, parallel::serial_limit + 1,
+    2000, 100'003};
 
 /// Sets the number of threads, and puts back the former one at the end of the scope.
 class ThreadCount {
@@ -287,18 +281,14 @@ TEST_CASE("parallel_sum: the bits of a rounded sum do not depend on the number o
     }
 }
 
-TEST_CASE("parallel_sum adds block after block: the order is that of its definition") {
-    constexpr std::size_t count = 5 * parallel::sum_block + 17;
-    double expected = 0.0;
-    for (std::size_t begin = 0; begin < count; begin += parallel::sum_block) {
-        double block = 0.0;
-        for (std::size_t k = begin; k < std::min(begin + parallel::sum_block, count); ++k) block += uneven_term(k);
-        expected += block;
-    }
+TEST_CASE("parallel_sum is exact, and rounded once: the order of the terms does not matter") {
+    constexpr std::size_t count = 100'003;
     double one_after_the_other = 0.0;
     for (std::size_t k = 0; k < count; ++k) one_after_the_other += uneven_term(k);
-    CHECK(parallel_sum<double>(count, uneven_term) == expected);
-    CHECK(expected != one_after_the_other);  // else the terms would not tell one order from another
+    const auto sum = parallel_sum<double>(count, uneven_term);
+    CHECK(parallel_sum<double>(count, [](std::size_t k) { return uneven_term(count - 1 - k); }) == sum);
+    CHECK(sum == doctest::Approx(one_after_the_other).epsilon(1e-12));
+    CHECK(sum != one_after_the_other);  // else the terms would not tell one order from another
 }
 
 TEST_CASE("parallel_max finds the largest value wherever it lies, and never less than the floor") {

@@ -113,7 +113,7 @@ TEST_CASE("a nematic of rods of two lengths pushes alike in all directions") {
     scene.time.rms_step = 0.05;
     Simulation simulation = assemble(scene, box, fast.rods(), fast.clock());
     for (int step = 0; step < 500; ++step) REQUIRE(simulation.step().status == LcpStatus::converged);
-    const auto columns = measured(simulation, 900, 10);
+    const auto columns = measured(simulation, 1300, 10);
     const auto ratio_less_1 = [&](std::size_t along, std::size_t across) {
         return jackknife(columns, [&](std::span<const double> mean) { return mean[along] / mean[across] - 1.0; });
     };

@@ -123,7 +123,8 @@ void CollisionSearch::search_block(std::size_t block, const Rods& rods, const Bo
                 found.bystanders.push_back(
                     {rows[k], slack, {batch.normal[0][k], batch.normal[1][k], batch.normal[2][k]}, in_block[k]});
             else
-                look_closely(name_of(block, rows[k], in_block[k]), in_block[k], rods, box, motion, found);
+                look_closely(rows[k], name_of(block, rows[k], in_block[k], rods), in_block[k], rods, box, motion,
+                             found);
         }
         count = 0;
     };
@@ -151,8 +152,8 @@ void CollisionSearch::search_block(std::size_t block, const Rods& rods, const Bo
     blocks_[block] = found;
 }
 
-void CollisionSearch::look_closely(const PairName& name, std::uint16_t in_block, const Rods& rods, const Box& box,
-                                   const RodMotion& motion, Found& found) const {
+void CollisionSearch::look_closely(std::uint32_t row, const PairName& name, std::uint16_t in_block, const Rods& rods,
+                                   const Box& box, const RodMotion& motion, Found& found) const {
     const auto& [i, j, image] = name;
     const Vec3 displacement = box.displacement(image);
     const PairGeometry before = pair_geometry(rods, i, j, displacement, rods.centre, rods.axis);
@@ -173,8 +174,9 @@ void CollisionSearch::look_closely(const PairName& name, std::uint16_t in_block,
         found.contacts.resize(known);
     }
     const double slack = gap_after - touching - 1e-6 * after.radii;
-    const auto normal = in_float(nearest_after.separation / distance_after);
-    found.bystanders.push_back({i,
+    // From the rod that the neighbour list names first to the other.
+    const auto normal = in_float((row == i ? 1.0 : -1.0) / distance_after * nearest_after.separation);
+    found.bystanders.push_back({row,
                                 static_cast<float>(slack),
                                 {in_normal_units(normal[0]), in_normal_units(normal[1]), in_normal_units(normal[2])},
                                 in_block});
@@ -206,16 +208,18 @@ double CollisionSearch::append(const PairName& name, const PairGeometry& before,
 }
 
 bool CollisionSearch::is_contact(const PairName& name, const Contacts& contacts) const {
+    const PairName listed = in_order_of_rows(name);
+    const auto pair_at = [&](std::size_t l) { return in_order_of_rows(pair_of(contacts, l)); };
     std::size_t low = 0, high = first_count_;
     while (low < high) {
         const std::size_t middle = low + (high - low) / 2;
-        if (pair_of(contacts, middle) < name)
+        if (pair_at(middle) < listed)
             low = middle + 1;
         else
             high = middle;
     }
-    if (low < first_count_ && pair_of(contacts, low) == name) return true;
-    return std::binary_search(added_.begin(), added_.end(), name);
+    if (low < first_count_ && pair_at(low) == listed) return true;
+    return std::binary_search(added_.begin(), added_.end(), listed);
 }
 
 /// Whether pushes could use up the slack of a bystander along the normal of its slab.
@@ -261,7 +265,7 @@ std::vector<PairName> CollisionSearch::missed_pairs(const Rods& rods, const Box&
                 const std::uint32_t j = neighbours_.partner(pair_number(block, bystander.in_block));
                 if (bystander.slack >= farthest_push_[bystander.i] + farthest_push_[j]) continue;
                 if (may_meet(bystander, pushes[bystander.i], pushes[j]))
-                    look(block, name_of(block, bystander.i, bystander.in_block));
+                    look(block, name_of(block, bystander.i, bystander.in_block, rods));
             }
         });
     }
@@ -276,7 +280,7 @@ std::vector<PairName> CollisionSearch::missed_pairs(const Rods& rods, const Box&
         found.resize(std::max(found.size(), neighbours_.block_count()));
         parallel_for_parts(neighbours_.block_count(), [&](std::size_t block) {
             neighbours_.for_close_pairs(block, [&](std::uint32_t i, std::size_t pair) {
-                if (!neighbours_.was_close(i, pair)) look(block, neighbours_.name(i, pair));
+                if (!neighbours_.was_close(i, pair)) look(block, in_order_of_ids(neighbours_.name(i, pair), rods.id));
             });
         });
     }
@@ -296,7 +300,7 @@ void CollisionSearch::add(std::span<const PairName> missed, const Rods& rods, co
         const PairGeometry after = pair_geometry(rods, i, j, displacement, motion.centre, motion.axis);
         const NearestPoints nearest = nearest_points(before);
         append(name, before, nearest, norm(nearest.separation), after, motion, contacts);
-        added_.push_back(name);
+        added_.push_back(in_order_of_rows(name));
     }
     std::sort(added_.begin(), added_.end());
 }

@@ -80,10 +80,11 @@ private:
         std::array<float, 3> axis, moved, axis_after;
         float half_length, radius, squared_touching;
     };
-    struct Bystander {  ///< there are several a rod, so they take few bytes
-        std::uint32_t i;
-        float slack;  ///< how much wider than touching the gap is after the known motion, at least
-        std::array<std::int16_t, 3> normal;  ///< of a slab of that width between the rods, in units of normal_unit
+    struct Bystander {    ///< there are several a rod, so they take few bytes
+        std::uint32_t i;  ///< the smaller row: that which the neighbour list names
+        float slack;      ///< how much wider than touching the gap is after the known motion, at least
+        std::array<std::int16_t, 3>
+            normal;  ///< of a slab of that width between the rods, from i to the other, in units of normal_unit
         std::uint16_t in_block;  ///< its number in a block of the neighbour list; good until the list is built again
     };
     struct Found {  ///< in one block of the neighbour list
@@ -95,10 +96,10 @@ private:
     static std::size_t pair_number(std::size_t block, std::size_t in_block) {
         return block * NeighbourList::block_size + in_block;
     }
-    PairName name_of(std::size_t block, std::uint32_t i, std::size_t in_block) const {
-        return neighbours_.name(i, pair_number(block, in_block));
+    PairName name_of(std::size_t block, std::uint32_t i, std::size_t in_block, const Rods& rods) const {
+        return in_order_of_ids(neighbours_.name(i, pair_number(block, in_block)), rods.id);
     }
-    void look_closely(const PairName& name, std::uint16_t in_block, const Rods& rods, const Box& box,
+    void look_closely(std::uint32_t row, const PairName& name, std::uint16_t in_block, const Rods& rods, const Box& box,
                       const RodMotion& motion, Found& found) const;
     double append(const PairName& name, const PairGeometry& before, const NearestPoints& nearest, double distance,
                   const PairGeometry& after, const RodMotion& motion, Contacts& contacts) const;
@@ -112,7 +113,7 @@ private:
     std::vector<Found> blocks_;
     std::vector<float> farthest_push_;  ///< (N) by forces, at the last search for missed pairs
     std::size_t first_count_ = 0;       ///< contacts before any were added
-    std::vector<PairName> added_;       ///< missed pairs of this step, ascending
+    std::vector<PairName> added_;       ///< missed pairs of this step by rows, ascending
 };
 
 }  // namespace jostle

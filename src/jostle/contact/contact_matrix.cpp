@@ -1,14 +1,17 @@
 #include "jostle/contact/contact_matrix.hpp"
 
+#include <algorithm>
+#include <tuple>
+
 #include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
 
-ContactMatrix::ContactMatrix(const Contacts& contacts, std::size_t rod_count, Include include)
-    : contacts_(contacts), place_of_(rod_count, no_place) {
+ContactMatrix::ContactMatrix(const Contacts& contacts, std::span<const std::uint64_t> ids, Include include)
+    : contacts_(contacts), ids_(ids), place_of_(ids.size(), no_place) {
     if (include == Include::all_rods) {
-        rows_.resize(rod_count);
-        for (std::uint32_t row = 0; row < rod_count; ++row) rows_[row] = place_of_[row] = row;
+        rows_.resize(ids.size());
+        for (std::uint32_t row = 0; row < ids.size(); ++row) rows_[row] = place_of_[row] = row;
     }
     extend();
 }
@@ -43,6 +46,16 @@ void ContactMatrix::list_sides() const {
         sides_[next[ends_[l].i]++] = side;
         sides_[next[ends_[l].j]++] = side + 1;
     }
+    const auto key = [this](std::uint32_t side) {
+        const Ends& ends = ends_[side / 2];
+        const bool is_j = side % 2 == 1;
+        const PairName name = pair_of(contacts_, side / 2);
+        return std::tuple(id_of(is_j ? ends.i : ends.j), is_j ? name.turned().image : name.image, side);
+    };
+    parallel_for(rows_.size(), [&](std::size_t k) {
+        std::sort(sides_.begin() + begin_[k], sides_.begin() + begin_[k + 1],
+                  [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    });
 }
 
 void ContactMatrix::apply(std::span<const double> gamma, std::span<ContactForce> forces) const {

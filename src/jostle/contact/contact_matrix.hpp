@@ -46,8 +46,9 @@ class ContactMatrix {
 public:
     enum class Include { rods_with_contacts, all_rods };
 
-    /// `rod_count`: of the rows that contacts refer to.
-    ContactMatrix(const Contacts& contacts, std::size_t rod_count, Include include = Include::rods_with_contacts);
+    /// `ids`: (N) of the rows that contacts refer to. Held by reference, too.
+    ContactMatrix(const Contacts& contacts, std::span<const std::uint64_t> ids,
+                  Include include = Include::rods_with_contacts);
 
     /// Takes in the contacts that have been appended since.
     void extend();
@@ -61,6 +62,8 @@ public:
     const Contacts& contacts() const { return contacts_; }
     std::span<const std::uint32_t> rods() const { return rows_; }  ///< (places) row of each
     std::span<const Ends> ends() const { return ends_; }           ///< (contacts) places
+
+    std::uint64_t id_of(std::uint32_t place) const { return ids_[rows_[place]]; }
 
     /// The place of a row, or `no_place`.
     std::uint32_t place_of(std::uint32_t row) const { return place_of_[row]; }
@@ -76,11 +79,13 @@ private:
     void list_sides() const;
 
     const Contacts& contacts_;
+    std::span<const std::uint64_t> ids_;
     std::vector<std::uint32_t> place_of_;  ///< (rods)
     std::vector<std::uint32_t> rows_;
     std::vector<Ends> ends_;
-    /// Contacts of each place in ascending order: 2 l where the rod is i of contact l, 2 l + 1 where it is j. Each rod
-    /// gathers its own forces, in this order, so that the sum does not depend on threads. Made when first needed.
+    /// Contacts of each place: 2 l where the rod is i of contact l, 2 l + 1 where it is j; in the order of the other
+    /// rods' ids, of the same other rod as the contacts stand. Each rod gathers its own forces, in this order, so that
+    /// the sum depends neither on threads nor on where rods stand in memory. Made when first needed.
     mutable std::vector<std::uint32_t> begin_;  ///< (places + 1)
     mutable std::vector<std::uint32_t> sides_;  ///< (2 contacts)
 };

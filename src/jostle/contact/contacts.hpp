@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "jostle/parallel/parallel_for.hpp"
@@ -16,8 +18,8 @@ namespace jostle {
 ///          |  gap                                        the arm vector is arm * axis
 ///     =====o====== j      gap < 0: overlap
 struct Contact {
-    std::uint32_t i = 0;  ///< the smaller row of the two rods
-    std::uint32_t j = 0;  ///< the other; i == j where a rod meets its own periodic image
+    std::uint32_t i = 0;  ///< row of the rod with the smaller id
+    std::uint32_t j = 0;  ///< of the other; i == j where a rod meets its own periodic image
     Vec3 normal;
     double arm_i = 0.0;
     double arm_j = 0.0;
@@ -30,8 +32,20 @@ struct PairName {
     std::uint32_t i, j;
     Image image;
 
+    /// The same pair as the other rod sees it.
+    PairName turned() const { return {j, i, {-image[0], -image[1], -image[2]}}; }
+
     auto operator<=>(const PairName&) const = default;
 };
+
+/// The pair with the smaller id first: what is computed of it has the same bits wherever its rods stand in memory.
+inline PairName in_order_of_ids(const PairName& name, std::span<const std::uint64_t> ids) {
+    return ids[name.i] <= ids[name.j] ? name : name.turned();
+}
+/// The pair with the smaller row first, as the neighbour list has it.
+inline PairName in_order_of_rows(const PairName& name) {
+    return name.i <= name.j ? name : name.turned();
+}
 
 /// Which points a contact follows while the rods move.
 enum class ContactFeature : std::uint8_t {
@@ -41,8 +55,9 @@ enum class ContactFeature : std::uint8_t {
     pushed,    ///< the points that are nearest once contact forces have pushed the rods (pushed_overlaps.hpp)
 };
 
-/// Contacts found, in the order of (i, j, image), of a pair the nearest points first; those added within a step come
-/// last: the same for any thread count and any neighbour list.
+/// Contacts found, in the order of the pairs' rows, of a pair the nearest points first; those added within a step come
+/// last: the same for any thread count and any neighbour list. Where rods stand in memory, and so the order, does not
+/// matter to results.
 struct Contacts {
     std::vector<Contact> contact;
     std::vector<Image> image;  ///< rod j meets i displaced by image * box edges
@@ -85,5 +100,10 @@ struct Contacts {
 inline PairName pair_of(const Contacts& contacts, std::size_t l) {
     return {contacts.contact[l].i, contacts.contact[l].j, contacts.image[l]};
 }
+
+/// The contacts in the order of their rods' ids, of a pair in that of its images, in one as they stand; if forces are
+/// given, those with a force above 0.
+std::vector<std::size_t> order_of_ids(const Contacts& contacts, std::span<const std::uint64_t> ids,
+                                      std::optional<std::span<const double>> gamma = std::nullopt);
 
 }  // namespace jostle

@@ -22,8 +22,9 @@ double find_contacts(const Rods& rods, const Box& box, const NeighbourList& neig
         overlaps[block] = std::max(overlaps[block], geometry.radii - distance);
     };
     parallel_for_parts(blocks.size(), [&](std::size_t block) {
-        neighbours.for_close_pairs(
-            block, [&](std::uint32_t i, std::size_t pair) { look_at(block, neighbours.name(i, pair)); });
+        neighbours.for_close_pairs(block, [&](std::uint32_t i, std::size_t pair) {
+            look_at(block, in_order_of_ids(neighbours.name(i, pair), rods.id));
+        });
     });
     contacts.clear();
     contacts.append(blocks.size(), [&](std::size_t block) -> const Contacts& { return blocks[block]; });

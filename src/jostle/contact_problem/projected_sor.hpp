@@ -14,9 +14,9 @@ namespace jostle {
 ///     (change).
 ///
 /// This converges for every symmetric positive semi-definite A and 0 < omega < 2 (Cryer 1971; Mangasarian 1977), many
-/// times faster than a gradient method, because a pair's forces act on its rods at once. Pairs are coloured, greedily
-/// and in their order, so that no two of one colour share a rod: pairs of a colour can be solved by any threads in any
-/// order with the same result.
+/// times faster than a gradient method, because a pair's forces act on its rods at once. Pairs are coloured, so that no
+/// two of one colour share a rod (PairColours): pairs of a colour can be solved by any threads in any order with the
+/// same result.
 ///
 /// Only contacts that push, or are about to, take part in most sweeps (Sweeper). Before the result is called solved,
 /// forces and velocities are computed anew from gamma, and the residual over all contacts from them. Missed contacts

@@ -1,7 +1,6 @@
 #include "jostle/contact_problem/sweeper.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <numeric>
 
 #include "jostle/parallel/parallel_for.hpp"
@@ -10,7 +9,6 @@ namespace jostle {
 
 namespace {
 
-constexpr std::size_t most_colours = 64;
 /// A contact without force takes part in the sweeps over those awake if its gap would open by less than this many
 /// tolerances.
 constexpr double drowsy = 100.0;
@@ -42,8 +40,16 @@ Sweeper<Real>::Sweeper(const ContactProblem& problem, double tolerance, const st
 template <class Real>
 void Sweeper<Real>::extend() {
     velocities_.resize(matrix_.rods().size());
-    colour_pairs();
-    fill();
+    const auto& new_pairs = pair_colours_.extend(matrix_.contact_matrix());
+    colours_.resize(new_pairs.size());
+    std::vector<ContactPair> singles, others;
+    for (std::size_t k = 0; k < colours_.size(); ++k) {
+        singles.clear();
+        others.clear();
+        for (const ContactPair& pair : new_pairs[k]) (pair.count == 1 ? singles : others).push_back(pair);
+        append(colours_[k].singles, singles, [this](const ContactPair& pair) { return contact_of(pair); });
+        append(colours_[k].pairs, others, [this](const ContactPair& pair) { return pair_of(pair); });
+    }
 }
 
 template <class Real>
@@ -96,53 +102,12 @@ void Sweeper<Real>::refresh(ContactSolution& solution) {
     });
 }
 
-/// Greedily, in the order of the contacts: a pair gets the first colour that neither of its rods has yet.
 template <class Real>
-void Sweeper<Real>::colour_pairs() {
-    const auto ends = matrix_.contact_matrix().ends();
-    const Contacts& contacts = matrix_.contact_matrix().contacts();
-    taken_.resize(matrix_.rods().size(), 0);
-    for (FirstContacts& new_ones : new_contacts_) new_ones = {};
-    for (auto l = static_cast<std::uint32_t>(coloured_); l < ends.size();) {
-        const auto [i, j] = ends[l];
-        std::uint32_t next = l + 1;
-        while (next < ends.size() && next < l + most_points && ends[next].i == i && ends[next].j == j &&
-               contacts.image[next] == contacts.image[l])
-            ++next;
-        auto colour = static_cast<std::size_t>(std::countr_one(taken_[i] | taken_[j]));
-        if (colour < most_colours) {
-            taken_[i] |= std::uint64_t{1} << colour;
-            taken_[j] |= std::uint64_t{1} << colour;
-        } else {  // a rod with very many neighbours: pairs that stand alone
-            colour = std::max(new_contacts_.size(), most_colours);
-        }
-        if (new_contacts_.size() <= colour) new_contacts_.resize(colour + 1);
-        auto& [singles, pairs] = new_contacts_[colour];
-        if (next == l + 1)
-            singles.push_back(l);
-        else
-            pairs.push_back({l, next - l});
-        l = next;
-    }
-    coloured_ = ends.size();
-    colours_.resize(new_contacts_.size());
-}
-
-template <class Real>
-void Sweeper<Real>::fill() {
-    for (std::size_t k = 0; k < colours_.size(); ++k) {
-        append(colours_[k].singles, new_contacts_[k].singles, [&](std::uint32_t l) { return contact_of(l); });
-        append(colours_[k].pairs, new_contacts_[k].pairs,
-               [&](const auto& contacts) { return pair_of(contacts.first, contacts.second); });
-    }
-}
-
-template <class Real>
-template <class Item, class Source, class MakeItem>
-void Sweeper<Real>::append(Group<Item>& group, const std::vector<Source>& sources, MakeItem&& item_of) {
+template <class Item, class MakeItem>
+void Sweeper<Real>::append(Group<Item>& group, std::span<const ContactPair> pairs, MakeItem&& item_of) {
     const std::size_t before = group.items.size();
-    group.items.resize(before + sources.size());
-    parallel_for(sources.size(), [&](std::size_t n) { group.items[before + n] = item_of(sources[n]); });
+    group.items.resize(before + pairs.size());
+    parallel_for(pairs.size(), [&](std::size_t n) { group.items[before + n] = item_of(pairs[n]); });
     group.sort_out(before, [](const Item& item) { return awake_at_first(item); });
 }
 
@@ -169,8 +134,8 @@ void Sweeper<Real>::Group<Item>::sort_out(std::size_t first, IsAwake&& is_awake)
 }
 
 template <class Real>
-SweptContact<Real> Sweeper<Real>::contact_of(std::uint32_t l) const {
-    const auto [i, j] = matrix_.contact_matrix().ends()[l];
+SweptContact<Real> Sweeper<Real>::contact_of(const ContactPair& pair) const {
+    const auto [i, j, l, count] = pair;
     ContactForce on_i, on_j;
     add_push(1.0, matrix_.contact_matrix().contacts().contact[l], on_i, on_j);
     const auto answer = [&](std::uint32_t place, const ContactForce& to) {
@@ -194,8 +159,8 @@ SweptContact<Real> Sweeper<Real>::contact_of(std::uint32_t l) const {
 }
 
 template <class Real>
-SweptPair Sweeper<Real>::pair_of(std::uint32_t first, std::uint32_t count) const {
-    const auto [i, j] = matrix_.contact_matrix().ends()[first];
+SweptPair Sweeper<Real>::pair_of(const ContactPair& touching) const {
+    const auto [i, j, first, count] = touching;
     SweptPair pair;
     pair.count = count;
     pair.i = i;

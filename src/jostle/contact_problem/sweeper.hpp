@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "jostle/contact_problem/contact_solver.hpp"
+#include "jostle/contact_problem/pair_colours.hpp"
 #include "jostle/contact_problem/swept_contacts.hpp"
 
 namespace jostle {
@@ -63,17 +64,11 @@ private:
         Group<SweptContact<Real>> singles;
         Group<SweptPair> pairs;
     };
-    struct FirstContacts {
-        std::vector<std::uint32_t> singles;
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  ///< first, count
-    };
 
-    void colour_pairs();
-    void fill();
-    SweptContact<Real> contact_of(std::uint32_t l) const;
-    SweptPair pair_of(std::uint32_t first, std::uint32_t count) const;
-    template <class Item, class Source, class MakeItem>
-    static void append(Group<Item>& group, const std::vector<Source>& sources, MakeItem&& item_of);
+    SweptContact<Real> contact_of(const ContactPair& pair) const;
+    SweptPair pair_of(const ContactPair& pair) const;
+    template <class Item, class MakeItem>
+    static void append(Group<Item>& group, std::span<const ContactPair> pairs, MakeItem&& item_of);
     template <class Item>
     void find_awake(Group<Item>& group);
     template <class Body>
@@ -85,9 +80,7 @@ private:
     double drowsy_velocity_, quiet_velocity_;
     std::vector<Wide<Real>> velocities_;  ///< (places) V, kept up to date
     std::vector<float> stirred_;  ///< (places) the largest change in the last sweep over all; empty if not asked for
-    std::vector<std::uint64_t> taken_;         ///< (places) a bit for each colour that a rod has
-    std::size_t coloured_ = 0;                 ///< contacts taken in
-    std::vector<FirstContacts> new_contacts_;  ///< of the pairs of each colour, while they are taken in
+    PairColours pair_colours_;
     std::vector<Colour> colours_;
 };
 

@@ -1,6 +1,7 @@
 #include "jostle/contact_problem/warm_start.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <tuple>
 #include <utility>
 
@@ -10,71 +11,74 @@ namespace jostle {
 
 namespace {
 
-bool before(const LastForce& a, const LastForce& b) {
-    return std::tie(a.i, a.j, a.feature, a.upper) < std::tie(b.i, b.j, b.feature, b.upper);
-}
-
-void sort(std::vector<LastForce>& forces) {
-    if (!std::is_sorted(forces.begin(), forces.end(), before)) std::stable_sort(forces.begin(), forces.end(), before);
-}
-
-ContactFeature seen_from_the_other_rod(ContactFeature feature) {
-    switch (feature) {
-        case ContactFeature::end_of_i:
-            return ContactFeature::end_of_j;
-        case ContactFeature::end_of_j:
-            return ContactFeature::end_of_i;
-        case ContactFeature::nearest:
-        case ContactFeature::pushed:
-            break;
-    }
-    return feature;
-}
-
-LastForce force_of(const Contacts& contacts, std::size_t l, double gamma) {
+LastForce force_of(const Contacts& contacts, std::size_t l, std::span<const std::uint64_t> ids, double gamma) {
     const Contact& contact = contacts.contact[l];
     const ContactFeature feature = contacts.feature[l];
     const bool upper = (feature == ContactFeature::end_of_i && contact.arm_i > 0.0) ||
                        (feature == ContactFeature::end_of_j && contact.arm_j > 0.0);
-    return {contact.i, contact.j, feature, upper, gamma};
+    return {ids[contact.i], ids[contact.j], feature, upper, gamma};
 }
+
+auto key_of(const LastForce& force) {
+    return std::tuple(force.i, force.j, force.feature, force.upper);
+}
+
+/// Forces by rods and feature: open addressing, half full at most.
+class ForceTable {
+public:
+    explicit ForceTable(std::span<const LastForce> forces)
+        : forces_(forces), slot_(std::bit_ceil(2 * forces.size() + 1), empty) {
+        for (std::uint32_t k = 0; k < forces.size(); ++k) {
+            std::uint32_t& slot = slot_[slot_of(forces[k])];
+            if (slot == empty || forces[slot].gamma < forces[k].gamma) slot = k;
+        }
+    }
+
+    double gamma_of(const LastForce& wanted) const {
+        const std::uint32_t found = slot_[slot_of(wanted)];
+        return found == empty ? 0.0 : forces_[found].gamma;
+    }
+
+private:
+    static constexpr std::uint32_t empty = 0xFFFFFFFF;
+
+    /// Where a force of this key is, or would be.
+    std::size_t slot_of(const LastForce& wanted) const {
+        std::uint64_t hash = wanted.i * 0x9E3779B97F4A7C15 + wanted.j;
+        hash = (hash ^ hash >> 32) * 0xD6E8FEB86659FD93 + static_cast<std::uint64_t>(wanted.feature);
+        std::size_t slot = (hash ^ hash >> 32) & (slot_.size() - 1);
+        while (slot_[slot] != empty && key_of(forces_[slot_[slot]]) != key_of(wanted))
+            slot = (slot + 1) & (slot_.size() - 1);
+        return slot;
+    }
+
+    std::span<const LastForce> forces_;
+    std::vector<std::uint32_t> slot_;
+};
 
 }  // namespace
 
-WarmStart::WarmStart(std::vector<LastForce> forces) : forces_(std::move(forces)) {
-    sort(forces_);
-}
-
-void WarmStart::keep(const Contacts& contacts, std::span<const double> gamma) {
+void WarmStart::keep(const Contacts& contacts, std::span<const double> gamma, std::span<const std::uint64_t> ids) {
     forces_.clear();
     for (std::size_t l = 0; l < gamma.size(); ++l)
         if (gamma[l] > 0.0 && contacts.feature[l] != ContactFeature::pushed)  // no step begins with those
-            forces_.push_back(force_of(contacts, l, gamma[l]));
-    sort(forces_);  // contacts that were missed at first come last
+            forces_.push_back(force_of(contacts, l, ids, gamma[l]));
 }
 
-void WarmStart::renumber(std::span<const std::uint32_t> new_row) {
-    parallel_for(forces_.size(), [&](std::size_t k) {
-        LastForce& force = forces_[k];
-        force.i = new_row[force.i];
-        force.j = new_row[force.j];
-        if (force.i <= force.j) return;
-        std::swap(force.i, force.j);
-        force.feature = seen_from_the_other_rod(force.feature);
-    });
-    std::erase_if(forces_, [](const LastForce& force) { return force.j == no_row; });
-    sort(forces_);
-}
-
-std::vector<double> WarmStart::guess(const Contacts& contacts) const {
+std::vector<double> WarmStart::guess(const Contacts& contacts, std::span<const std::uint64_t> ids) const {
     if (forces_.empty()) return {};
-    std::vector<double> gamma(contacts.size(), 0.0);
-    parallel_for(gamma.size(), [&](std::size_t l) {
-        const LastForce same = force_of(contacts, l, 0.0);
-        const auto found = std::lower_bound(forces_.begin(), forces_.end(), same, before);
-        if (found != forces_.end() && !before(same, *found)) gamma[l] = found->gamma;
-    });
+    const ForceTable table(forces_);
+    std::vector<double> gamma(contacts.size());
+    parallel_for(gamma.size(), [&](std::size_t l) { gamma[l] = table.gamma_of(force_of(contacts, l, ids, 0.0)); });
     return gamma;
+}
+
+std::vector<LastForce> WarmStart::forces() const {
+    std::vector<LastForce> sorted = forces_;
+    std::sort(sorted.begin(), sorted.end(), [](const LastForce& a, const LastForce& b) {
+        return std::tuple(key_of(a), a.gamma) < std::tuple(key_of(b), b.gamma);
+    });
+    return sorted;
 }
 
 }  // namespace jostle

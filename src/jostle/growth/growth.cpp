@@ -113,6 +113,7 @@ std::vector<LineageEvent> Growth::divide(Rods& rods, const Box& box, std::uint64
         }
     }
     if (law_.death_rate > 0.0) remove_rows(rods, dead);
+    std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
     return events;
 }
 

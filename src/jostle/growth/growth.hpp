@@ -46,8 +46,8 @@ public:
     /// Whether cells divide and die after the step with this number.
     bool is_due(std::uint64_t step) const { return step % law_.division_every == 0; }
 
-    /// Lets cells divide and die. Daughters' rows come last. Throws InputError if a line has had more divisions than
-    /// ids can tell apart.
+    /// Lets cells divide and die; the events are in the order of ids. Daughters' rows come last. Throws InputError if a
+    /// line has had more divisions than ids can tell apart.
     std::vector<LineageEvent> divide(Rods& rods, const Box& box, std::uint64_t step, double time_step) const;
 
 private:

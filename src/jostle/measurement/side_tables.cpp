@@ -55,12 +55,10 @@ TableColumns<ContactState> contact_columns(const Scene& scene) {
 
 TableRows contact_rows(const TableColumns<ContactState>& columns, const Simulation& simulation) {
     TableRows rows;
-    for (std::size_t l = 0; l < simulation.contacts().size(); ++l) {
-        const double force = simulation.contact_solution().gamma[l];
-        if (force > 0.0)
-            rows.push_back(columns.row(
-                {simulation.clock(), contact_by_id(simulation, l), force, simulation.contacts().contact[l].gap}));
-    }
+    const auto& gamma = simulation.contact_solution().gamma;
+    for (const std::size_t l : order_of_ids(simulation.contacts(), simulation.contact_ids(), gamma))
+        rows.push_back(columns.row(
+            {simulation.clock(), contact_by_id(simulation, l), gamma[l], simulation.contacts().contact[l].gap}));
     return rows;
 }
 

@@ -7,6 +7,7 @@
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/motion/self_propulsion.hpp"
+#include "jostle/rods/space_filling_order.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/setup/assemble.hpp"
 
@@ -112,7 +113,7 @@ Checkpoint checkpoint_of(const Simulation& simulation, const StepSums& sums, std
     checkpoint.step = simulation.clock().step;
     checkpoint.time = simulation.clock().time;
     checkpoint.box = simulation.box();
-    checkpoint.rods = simulation.rods();
+    checkpoint.rods = in_order_of_ids(simulation.rods());
     checkpoint.springs.assign(simulation.springs().begin(), simulation.springs().end());
     checkpoint.last_forces = simulation.last_forces();
     checkpoint.accumulators = sums.to_numbers();

@@ -12,6 +12,7 @@
 #include "jostle/measurement/stress_columns.hpp"
 #include "jostle/measurement/stress_ratio_checks.hpp"
 #include "jostle/measurement/summary_entries.hpp"
+#include "jostle/parallel/parallel_for.hpp"
 #include "jostle/run_files/version.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/units.hpp"
@@ -93,8 +94,8 @@ bool all_alike(const Rods& rods) {
 }
 
 double mean_aspect_ratio(const Rods& rods) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < rods.size(); ++i) sum += rods.length[i] / rods.diameter[i];
+    const auto sum =
+        parallel_sum<double>(rods.size(), [&](std::size_t i) { return rods.length[i] / rods.diameter[i]; });
     return sum / static_cast<double>(rods.size());
 }
 

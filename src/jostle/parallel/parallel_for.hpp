@@ -1,14 +1,19 @@
 #pragma once
 
-// The only header that names OpenMP. Every result is the same for any number of threads: loops write to places of their
-// own, and sums are taken over blocks of fixed size, first inside each block, then over the blocks in order.
+// The only header that names OpenMP. Every result is the same for any number of threads and any order of the terms:
+// loops write to places of their own, and sums are exact.
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <bit>
 #include <cstddef>
 #include <exception>
+#include <type_traits>
 #include <utility>
 #include <vector>
+
+#include "jostle/parallel/exact_sum.hpp"
 
 namespace jostle {
 
@@ -38,9 +43,6 @@ std::pair<std::size_t, std::size_t> own_share(std::size_t count);
 
 /// Loops shorter than this run on the calling thread: starting the others would take longer than the work.
 inline constexpr std::size_t serial_limit = 512;
-
-/// Terms summed one after the other before block sums are combined.
-inline constexpr std::size_t sum_block = 256;
 
 /// Calls share(begin, end) for parts of [0, count), each on a thread of its own unless `on_one`. Waits for all, then
 /// throws what was thrown first.
@@ -102,19 +104,39 @@ void parallel_for_blocks(std::size_t count, std::size_t block_size, Body&& body)
     });
 }
 
-/// The sum of term(k) over [0, count) in a fixed order. T needs a zero default and +=.
+/// The sum of term(k) over [0, count): exact and rounded once, so that neither threads nor the order of the terms
+/// matter. T is a whole number, a double, or a struct of doubles alone, each of which is summed.
 template <class T, class Term>
 T parallel_sum(std::size_t count, Term&& term) {
-    const std::size_t blocks = (count + parallel::sum_block - 1) / parallel::sum_block;
-    std::vector<T> partial(blocks);
-    parallel_for_blocks(count, parallel::sum_block, [&](std::size_t block, std::size_t begin, std::size_t end) {
-        T sum{};
-        for (std::size_t k = begin; k < end; ++k) sum += term(k);
-        partial[block] = sum;
+    static_assert(std::is_integral_v<T> || (std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(double) == 0));
+    constexpr std::size_t width = std::is_integral_v<T> ? 1 : sizeof(T) / sizeof(double);
+    using Sum = std::conditional_t<std::is_integral_v<T>, T, ExactSum>;
+    std::array<Sum, width> total{};
+    parallel::for_shares(count, count <= parallel::serial_limit, [&](std::size_t begin, std::size_t end) {
+        std::array<Sum, width> share{};
+        if constexpr (std::is_integral_v<T>) {
+            for (std::size_t k = begin; k < end; ++k) share[0] += term(k);
+        } else {
+            std::array<std::array<double, ExactSum::batch>, width> batch;
+            for (std::size_t first = begin; first < end; first += ExactSum::batch) {
+                const std::size_t count_of_batch = std::min(ExactSum::batch, end - first);
+                for (std::size_t k = 0; k < count_of_batch; ++k) {
+                    const auto numbers = std::bit_cast<std::array<double, width>>(static_cast<T>(term(first + k)));
+                    for (std::size_t n = 0; n < width; ++n) batch[n][k] = numbers[n];
+                }
+                for (std::size_t n = 0; n < width; ++n) share[n].add_all({batch[n].data(), count_of_batch});
+            }
+        }
+#pragma omp critical
+        for (std::size_t n = 0; n < width; ++n) total[n] += share[n];
     });
-    T sum{};
-    for (const T& value : partial) sum += value;
-    return sum;
+    if constexpr (std::is_integral_v<T>) {
+        return total[0];
+    } else {
+        std::array<double, width> sum;
+        for (std::size_t n = 0; n < width; ++n) sum[n] = total[n].value();
+        return std::bit_cast<T>(sum);
+    }
 }
 
 /// The largest of `floor` and all value(k) over [0, count).

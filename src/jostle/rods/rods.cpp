@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "jostle/parallel/parallel_for.hpp"
+
 namespace jostle {
 
 double rod_volume(double length, double diameter) {
@@ -9,9 +11,8 @@ double rod_volume(double length, double diameter) {
 }
 
 double total_volume(const Rods& rods) {
-    double volume = 0.0;
-    for (std::size_t i = 0; i < rods.size(); ++i) volume += rod_volume(rods.length[i], rods.diameter[i]);
-    return volume;
+    return parallel_sum<double>(rods.size(),
+                                [&](std::size_t i) { return rod_volume(rods.length[i], rods.diameter[i]); });
 }
 
 }  // namespace jostle

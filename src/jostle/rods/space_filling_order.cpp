@@ -79,4 +79,8 @@ Rods reordered(const Rods& rods, std::span<const std::uint32_t> order) {
     return result;
 }
 
+Rods in_order_of_ids(const Rods& rods) {
+    return reordered(rods, id_order(rods));
+}
+
 }  // namespace jostle

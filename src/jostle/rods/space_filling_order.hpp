@@ -21,4 +21,7 @@ std::vector<std::uint32_t> new_rows(std::span<const std::uint32_t> order);
 /// The rods with row k taken from row order[k].
 Rods reordered(const Rods& rods, std::span<const std::uint32_t> order);
 
+/// The rods in the order of ids.
+Rods in_order_of_ids(const Rods& rods);
+
 }  // namespace jostle

@@ -17,7 +17,7 @@ namespace {
 
 // The first byte is no text and the last is a newline, so that a file mangled as text no longer matches.
 constexpr std::string_view magic = "\x89JOSTLE\n";
-constexpr std::uint32_t format_version = 7;
+constexpr std::uint32_t format_version = 8;
 constexpr std::size_t header_bytes = 24;
 constexpr std::size_t checksum_bytes = 8;
 constexpr const char* start_again = "Start the run again with --fresh";
@@ -119,17 +119,17 @@ void put_forces(Payload& writer, const std::vector<LastForce>& forces) {
     }
 }
 
-std::vector<LastForce> take_forces(ByteReader& reader, std::size_t rods) {
+std::vector<LastForce> take_forces(ByteReader& reader) {
     std::vector<LastForce> forces;
     for (auto left = reader.take<std::uint64_t>(); left > 0; --left) {
         LastForce force;
-        force.i = reader.take<std::uint32_t>();
-        force.j = reader.take<std::uint32_t>();
+        force.i = reader.take<std::uint64_t>();
+        force.j = reader.take<std::uint64_t>();
         const auto feature = reader.take<std::uint8_t>();
         force.upper = reader.take<std::uint8_t>() != 0;
         force.gamma = reader.take<double>();
-        if (force.i > force.j || force.j >= rods || feature > static_cast<std::uint8_t>(ContactFeature::end_of_j))
-            throw std::out_of_range("a contact force of rods that are not there");
+        if (force.i > force.j || feature > static_cast<std::uint8_t>(ContactFeature::end_of_j))
+            throw std::out_of_range("a contact force that is none");
         force.feature = static_cast<ContactFeature>(feature);
         forces.push_back(force);
     }
@@ -171,7 +171,7 @@ Checkpoint from_payload(std::string_view payload) {
     for (bool& periodic : checkpoint.box.periodic) periodic = reader.take<std::uint8_t>() != 0;
     checkpoint.rods = take_rods(reader);
     checkpoint.springs = take_springs(reader);
-    checkpoint.last_forces = take_forces(reader, checkpoint.rods.size());
+    checkpoint.last_forces = take_forces(reader);
     const auto accumulator_count = reader.take<std::uint64_t>();
     reader.take_elements(accumulator_count, checkpoint.accumulators);
     checkpoint.series_bytes = reader.take<std::uint64_t>();

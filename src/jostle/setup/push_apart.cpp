@@ -62,7 +62,7 @@ PushApartResult push_apart(Rods& rods, const Box& box, Mobility& mobility) {
         parallel_for(b.size(), [&](std::size_t l) {
             b[l] = std::max(contacts.contact[l].gap - free_space * thinnest, -opened_each_round * thinnest);
         });
-        const ContactMatrix contact_matrix(contacts, rods.size());
+        const ContactMatrix contact_matrix(contacts, rods.id);
         const DelassusOperator matrix(contact_matrix, rods, mobility);
         LcpSettings settings;
         settings.tolerance = tolerance * thinnest;

@@ -97,7 +97,7 @@ Rods scattered_rods(const Scene& scene, const Box& box, const std::optional<Vec3
         for (const std::uint32_t row : again) cells.put_in(row, rods.centre[row]);
         if (again.size() > worth_renumbering) renumber_all();
     }
-    return reordered(rods, id_order(rods));
+    return in_order_of_ids(rods);
 }
 
 }  // namespace jostle

@@ -40,7 +40,7 @@ Rods at_random(Rods rods, const Box& box, bool turning, const Scene& scene, cons
                                    : "Use a lower volume fraction, a roomier box, or start = \"lattice\""});
     }
     rods.image.assign(rods.size(), Image{0, 0, 0});
-    return reordered(rods, id_order(rods));  // annealing has renumbered them
+    return in_order_of_ids(rods);  // annealing has renumbered them
 }
 
 /// Sites along the rods (direction 0) and across (1, 2).

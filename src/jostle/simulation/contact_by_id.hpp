@@ -19,9 +19,8 @@ struct ContactById {
 inline ContactById contact_by_id(const Simulation& simulation, std::size_t l) {
     const Contact& contact = simulation.contacts().contact[l];
     const Image& image = simulation.contacts().image[l];
-    const std::uint64_t i = simulation.contact_ids()[contact.i], j = simulation.contact_ids()[contact.j];
-    if (i <= j) return {{i, j}, image, contact.normal, {contact.arm_i, contact.arm_j}};
-    return {{j, i}, {-image[0], -image[1], -image[2]}, -contact.normal, {contact.arm_j, contact.arm_i}};
+    const std::vector<std::uint64_t>& ids = simulation.contact_ids();
+    return {{ids[contact.i], ids[contact.j]}, image, contact.normal, {contact.arm_i, contact.arm_j}};
 }
 
 }  // namespace jostle

@@ -121,14 +121,17 @@ RodMotion Simulation::motion() const {
             margin_,       range_,      {largest_shift_, shift}, settings_.wca_energy > 0.0};
 }
 
-/// Every so many steps, a function of the state alone: a run that was stopped goes on with the same rows.
+/// Now and then: rods near each other in space come near each other in memory.
 void Simulation::renumber() {
     constexpr std::uint64_t every = 512;
-    if (clock_.step % every != 0) return;
-    const std::vector<std::uint32_t> order = space_filling_order(rods_, box_);
-    if (ids_before_.empty()) ids_before_ = rods_.id;  // of the last step's contacts, should this one end early
+    if (reordered_ && clock_.step % every != 0) return;
+    reorder(space_filling_order(rods_, box_));
+    reordered_ = true;
+}
+
+void Simulation::reorder(std::span<const std::uint32_t> order) {
+    if (ids_before_.empty()) ids_before_ = rods_.id;  // of the last step's contacts
     rods_ = reordered(rods_, order);
-    if (settings_.warm_start) warm_start_.renumber(new_rows(order));
     take_over_rods();
 }
 

@@ -59,6 +59,9 @@ public:
     /// were.
     StepReport step();
 
+    /// Row k of the rods is then what row order[k] was: no result depends on where rods stand. `order`: (N) all rows.
+    void reorder(std::span<const std::uint32_t> order);
+
     const Rods& rods() const { return rods_; }
     const Box& box() const { return box_; }
     const Clock& clock() const { return clock_; }
@@ -75,7 +78,7 @@ public:
     const Contacts& contacts() const { return contacts_; }
     const ContactSolution& contact_solution() const { return solution_; }
     /// From which the next step begins; empty unless the settings ask for a warm start.
-    const std::vector<LastForce>& last_forces() const { return warm_start_.forces(); }
+    std::vector<LastForce> last_forces() const { return warm_start_.forces(); }
     /// The parts of its collision stress, if the settings ask for them.
     const CollisionMoments& collision_moments() const { return moments_; }
     /// Ids of the rows that these refer to: those of `rods()`, but where cells have died, or rows changed, since.
@@ -96,7 +99,6 @@ private:
     void turn_round(std::span<const std::uint32_t> rows);
     void divide();
 
-    void keep_forces();
     void take_over_rods();
     void find_sizes();
     void find_allowances();
@@ -122,6 +124,7 @@ private:
     std::vector<LineageEvent> lineage_;
     std::vector<std::uint64_t> ids_before_;  ///< (N) of the rows in the last step, where cells may have died since
 
+    bool reordered_ = false;  ///< rods near each other are near each other in memory
     ThreadChoice threads_;
     CollisionSearch search_;
     double mean_diameter_ = 0.0, mean_length_ = 0.0;
@@ -137,7 +140,7 @@ private:
     std::vector<Push> pushes_;  ///< (N) by contact forces; all 0 between steps
     Contacts contacts_;
     ContactSolution solution_;
-    WarmStart warm_start_;  ///< of the present rows
+    WarmStart warm_start_;
     CollisionMoments moments_;
 };
 

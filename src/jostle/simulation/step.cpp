@@ -91,7 +91,7 @@ StepReport Simulation::step() {
         lengthening->keep();
         divide();
     }
-    if (settings_.warm_start) keep_forces();
+    if (settings_.warm_start) warm_start_.keep(contacts_, solution_.gamma, contact_ids());
     timer.finish(StepPhase::advance);
     threads_.end_step();
     return report;
@@ -144,13 +144,13 @@ double Simulation::shift_of(const Contact& contact) const {
 // Theory 2.3: 0 <= A gamma + b  perp  gamma >= 0, with more contacts where forces turn out to bring rods together.
 void Simulation::solve_contacts(StepReport& report) {
     using Include = ContactMatrix::Include;
-    ContactMatrix contact_matrix(contacts_, rods_.size(),
+    ContactMatrix contact_matrix(contacts_, rods_.id,
                                  mobility_->couples_rods() ? Include::all_rods : Include::rods_with_contacts);
     const double compliance = corrects_brownian_motion() ? contact_compliance : 0.0;
     DelassusOperator matrix(contact_matrix, rods_, *mobility_, compliance);
     std::vector<double> b, start;
     extend_gap_velocities(b);
-    if (settings_.warm_start) start = warm_start_.guess(contacts_);
+    if (settings_.warm_start) start = warm_start_.guess(contacts_, rods_.id);
     int looks = settings_.look_again ? most_looks : 0;
     const auto add_missed = [&](const ContactSolution& solution, bool final) {
         // The latter first: a contact that was missed has no force yet, and is not to be mended as one that has.
@@ -173,7 +173,7 @@ void Simulation::solve_contacts(StepReport& report) {
 
 // Not in the paper: soft rods. The forces follow from the places before the step, and nothing has to be solved.
 void Simulation::repel(StepReport& report) {
-    const ContactMatrix contact_matrix(contacts_, rods_.size());
+    const ContactMatrix contact_matrix(contacts_, rods_.id);
     const DelassusOperator matrix(contact_matrix, rods_, *mobility_);
     solution_ = {};
     solution_.resize(contact_matrix);
@@ -351,17 +351,6 @@ void Simulation::divide() {
     ids_before_ = rods_.id;
     lineage_ = growth_->divide(rods_, box_, clock_.step, settings_.time_step);
     if (!lineage_.empty()) take_over_rods();
-}
-
-// For the next step, of the rods that are still there.
-void Simulation::keep_forces() {
-    warm_start_.keep(contacts_, solution_.gamma);
-    if (lineage_.empty()) return;
-    std::vector<std::uint32_t> row_now(ids_before_.size(), WarmStart::no_row);
-    std::uint32_t row = 0;  // the living stay in order
-    for (std::size_t before = 0; before < ids_before_.size(); ++before)
-        if (row < rods_.size() && rods_.id[row] == ids_before_[before]) row_now[before] = row++;
-    warm_start_.renumber(row_now);
 }
 
 }  // namespace jostle

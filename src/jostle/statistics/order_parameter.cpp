@@ -4,6 +4,7 @@
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/math/symmetric_eigen.hpp"
+#include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
 
@@ -27,8 +28,7 @@ NematicOrder nematic_order(std::span<const Vec3> axes) {
                           .suggestion = "",
                           .place = {}});
     }
-    Mat3 sum;
-    for (const Vec3& axis : axes) sum += outer(axis, axis);
+    const auto sum = parallel_sum<Mat3>(axes.size(), [&](std::size_t i) { return outer(axes[i], axes[i]); });
     const Mat3 tensor = (1.5 / static_cast<double>(axes.size())) * sum - 0.5 * identity();
     const SymmetricEigen eigen = symmetric_eigen(tensor);
     return {tensor, eigen.values[2], with_largest_component_positive(eigen.vectors[2])};

@@ -1,5 +1,8 @@
 #include "jostle/stress/collision_moments.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 namespace jostle {
 
 CollisionMoments collision_moments(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
@@ -7,14 +10,17 @@ CollisionMoments collision_moments(const Contacts& contacts, std::span<const dou
                                    ContactDistance distance) {
     require_moment_rows(contacts, gamma, rods, axis, torques);
     CollisionMoments moments;
-    for (std::size_t l = 0; l < contacts.size(); ++l) {
-        if (gamma[l] == 0.0) continue;
+    for (const std::size_t l : order_of_ids(contacts, rods.id, gamma)) {
         const Contact& contact = contacts.contact[l];
         const Vec3 partner = rods.centre[contact.j] + box.displacement(contacts.image[l]);
         moments.pairs.push_back({rods.id[contact.i], rods.id[contact.j], 0.5 * (rods.centre[contact.i] + partner),
                                  centre_separation(contact, rods, axis, distance), gamma[l] * contact.normal});
     }
-    for (std::size_t k = 0; k < torques.rods.size(); ++k) {
+    std::vector<std::size_t> order(torques.rods.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto id_of = [&](std::size_t k) { return rods.id[torques.rods[k]]; };
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return id_of(a) < id_of(b); });
+    for (const std::size_t k : order) {
         if (torques.torque[k] == Vec3{}) continue;
         const std::uint32_t row = torques.rods[k];
         moments.bodies.push_back(

@@ -28,8 +28,8 @@ struct CollisionMoments {
         Mat3 geometric;
     };
 
-    std::vector<Pair> pairs;   ///< in the order of the contacts
-    std::vector<Body> bodies;  ///< in the order of the torques
+    std::vector<Pair> pairs;   ///< in the order of the ids
+    std::vector<Body> bodies;  ///< in the order of the ids
 
     /// V Sigma_col (theory, eq. 1.7): `sum_of_pair_stresses`, but for rounding.
     Mat3 total() const;

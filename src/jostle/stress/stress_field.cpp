@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "jostle/error/input_error.hpp"
+#include "jostle/rods/space_filling_order.hpp"
 #include "jostle/stress/orientation_stress.hpp"
 
 namespace jostle {
@@ -66,11 +67,11 @@ StressField::Content& StressField::Content::add(double weight, const Content& ot
 
 void StressField::add(const CollisionMoments& moments, const Rods& rods, double kT) {
     steps_ += 1.0;
-    // In order, on one thread: cells are shared, and the same bits for any number of threads are worth more.
+    // In the order of ids, on one thread: cells are shared, and the same bits for any number of threads are worth more.
     for (const CollisionMoments::Pair& pair : moments.pairs) spread(pair);
     for (const CollisionMoments::Body& body : moments.bodies)
         deposit(body.centre, [&](Content& cell, double weight) { cell.collision += weight * body.geometric; });
-    for (std::size_t i = 0; i < rods.size(); ++i) {
+    for (const std::uint32_t i : id_order(rods)) {
         const Mat3 orientation = orientation_stress_of_rod(rods.axis[i], rods.length[i], rods.diameter[i], kT);
         deposit(rods.centre[i], [&](Content& cell, double weight) {
             cell.number_density += weight;

@@ -55,7 +55,7 @@ TEST_CASE("D^T is the gradient of the gaps: finite differences") {
         REQUIRE(assembly.contacts.size() > 20);
         std::mt19937_64 engine(17);
         const Velocities velocities = random_velocities(assembly.rods.size(), engine);
-        const ContactMatrix D(assembly.contacts, assembly.rods.size());
+        const ContactMatrix D(assembly.contacts, assembly.rods.id);
         std::vector<double> rates(assembly.contacts.size());
         D.apply_transpose(of_places(velocities, D, assembly.rods), rates);
 
@@ -82,7 +82,7 @@ TEST_CASE("D and D^T are transposes, also where a rod meets its own image") {
     Assembly assembly({15, 4, 3}, 16, 9);
     std::mt19937_64 engine(23);
     std::normal_distribution<double> normal;
-    const ContactMatrix D(assembly.contacts, assembly.rods.size());
+    const ContactMatrix D(assembly.contacts, assembly.rods.id);
     bool self_contact = false;
     for (const Contact& contact : assembly.contacts.contact) self_contact |= contact.i == contact.j;
     REQUIRE(self_contact);
@@ -109,7 +109,7 @@ TEST_CASE("D and D^T are transposes, also where a rod meets its own image") {
 
 TEST_CASE("contact forces have no net force") {
     Assembly assembly({8, 8, 8}, 24, 13);
-    const ContactMatrix D(assembly.contacts, assembly.rods.size());
+    const ContactMatrix D(assembly.contacts, assembly.rods.id);
     const std::vector<double> gamma(assembly.contacts.size(), 1.0);
     std::vector<ContactForce> forces(D.rods().size());
     D.apply(gamma, forces);
@@ -123,11 +123,11 @@ TEST_CASE("rods without contacts have no place, unless all rods are asked for") 
     for (std::uint64_t k = 0; k < 5; ++k) rods.push_back(k, {3.0 * static_cast<double>(k), 0, 0}, {0, 0, 1}, 1.0, 1.0);
     Contacts contacts;
     contacts.push_back({1, 3, {1, 0, 0}, 0.1, 0.2, 0.0, 0.0}, {0, 0, 0}, ContactFeature::nearest);
-    const ContactMatrix some(contacts, rods.size());
+    const ContactMatrix some(contacts, rods.id);
     CHECK(std::vector<std::uint32_t>(some.rods().begin(), some.rods().end()) == std::vector<std::uint32_t>{1, 3});
     CHECK(some.ends()[0].i == 0);
     CHECK(some.ends()[0].j == 1);
-    const ContactMatrix all(contacts, rods.size(), ContactMatrix::Include::all_rods);
+    const ContactMatrix all(contacts, rods.id, ContactMatrix::Include::all_rods);
     CHECK(all.rods().size() == 5);
     CHECK(all.ends()[0].j == 3);
 }

@@ -25,7 +25,7 @@ TEST_CASE("A is symmetric and positive semi-definite, and its diagonal is as tol
         neighbours.update(rods, box, reach);
         Contacts contacts;
         find_contacts(rods, box, neighbours, reach, contacts);
-        const ContactMatrix D(contacts, rods.size());
+        const ContactMatrix D(contacts, rods.id);
         const DelassusOperator A(D, rods, mobility);
         const auto count = static_cast<Eigen::Index>(A.size());
         REQUIRE(count > 20);

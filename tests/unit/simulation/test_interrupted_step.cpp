@@ -37,7 +37,7 @@ Scene colony() {
 }
 
 void check_same_state(const Simulation& one, const Simulation& other) {
-    const Rods a = reordered(one.rods(), id_order(one.rods())), b = reordered(other.rods(), id_order(other.rods()));
+    const Rods a = in_order_of_ids(one.rods()), b = in_order_of_ids(other.rods());
     CHECK(one.clock().step == other.clock().step);
     CHECK(a.id == b.id);
     CHECK(a.centre == b.centre);

@@ -1,0 +1,144 @@
+#include "jostle/contact_problem/pair_colours.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <tuple>
+
+#include "jostle/contact_problem/pair_problem.hpp"
+#include "jostle/parallel/parallel_for.hpp"
+
+namespace jostle {
+
+namespace {
+
+constexpr std::size_t most_colours = 64;
+
+/// Spreads the bits of a number over all of it; one to one.
+std::uint64_t mixed(std::uint64_t x) {
+    x = (x ^ x >> 32) * 0xD6E8FEB86659FD93;
+    x = (x ^ x >> 32) * 0xD6E8FEB86659FD93;
+    return x ^ x >> 32;
+}
+
+std::uint64_t priority_of(std::uint64_t id_i, std::uint64_t id_j, const Image& image) {
+    std::uint64_t hash = mixed(mixed(id_i) + id_j);
+    if (image == Image{0, 0, 0}) return hash;
+    for (const std::int32_t k : image) hash = mixed(hash + static_cast<std::uint32_t>(k));
+    return hash;
+}
+
+}  // namespace
+
+const std::vector<std::vector<ContactPair>>& PairColours::extend(const ContactMatrix& contact_matrix) {
+    for (auto& pairs : by_colour_) pairs.clear();
+    list_new_pairs(contact_matrix);
+    list_turns(contact_matrix);
+    beyond_.clear();
+    while (!ready_.empty()) {
+        const std::uint32_t pair = ready_.back();
+        ready_.pop_back();
+        give_colour(pair);
+        const auto [i, j, first, count] = pairs_[pair];
+        advance(i);
+        if (j != i) advance(j);
+    }
+    if (!beyond_.empty()) give_colours_beyond_most(contact_matrix);
+    return by_colour_;
+}
+
+void PairColours::list_new_pairs(const ContactMatrix& contact_matrix) {
+    const auto ends = contact_matrix.ends();
+    const Contacts& contacts = contact_matrix.contacts();
+    pairs_.clear();
+    for (auto l = static_cast<std::uint32_t>(coloured_); l < ends.size();) {
+        const auto [i, j] = ends[l];
+        std::uint32_t next = l + 1;
+        while (next < ends.size() && next < l + most_points && ends[next].i == i && ends[next].j == j &&
+               contacts.image[next] == contacts.image[l])
+            ++next;
+        pairs_.push_back({i, j, l, next - l});
+        l = next;
+    }
+    coloured_ = ends.size();
+    priority_.resize(pairs_.size());
+    parallel_for(pairs_.size(), [&](std::size_t p) {
+        const ContactPair& pair = pairs_[p];
+        priority_[p] =
+            priority_of(contact_matrix.id_of(pair.i), contact_matrix.id_of(pair.j), contacts.image[pair.first]);
+    });
+}
+
+/// Lists the new pairs of each rod in the order of their turns, and those that are first at both.
+void PairColours::list_turns(const ContactMatrix& contact_matrix) {
+    const std::size_t places = contact_matrix.rods().size();
+    taken_.resize(places, 0);
+    begin_.assign(places + 1, 0);
+    for (const ContactPair& pair : pairs_) {
+        ++begin_[pair.i + 1];
+        if (pair.j != pair.i) ++begin_[pair.j + 1];
+    }
+    for (std::size_t k = 0; k < places; ++k) begin_[k + 1] += begin_[k];
+    turns_.resize(begin_.back());
+    next_.assign(begin_.begin(), begin_.end() - 1);
+    for (std::uint32_t p = 0; p < pairs_.size(); ++p) {
+        const ContactPair& pair = pairs_[p];
+        turns_[next_[pair.i]++] = {priority_[p], p};
+        if (pair.j != pair.i) turns_[next_[pair.j]++] = {priority_[p], p};
+    }
+    // Equal priorities: the same rods in several images, or at points that were found one after the other; or, once in
+    // 10^19, others.
+    const auto key = [&](const Turn& turn) {
+        const ContactPair& pair = pairs_[turn.pair];
+        return std::tuple(contact_matrix.id_of(pair.i), contact_matrix.id_of(pair.j),
+                          contact_matrix.contacts().image[pair.first], pair.first);
+    };
+    const auto before = [&](const Turn& a, const Turn& b) {
+        return a.priority != b.priority ? a.priority < b.priority : key(a) < key(b);
+    };
+    parallel_for(places, [&](std::size_t place) {
+        const auto first = turns_.begin() + begin_[place], last = turns_.begin() + begin_[place + 1];
+        if (last - first > 1) std::sort(first, last, before);
+        next_[place] = begin_[place];
+    });
+    ready_.clear();
+    for (std::uint32_t p = 0; p < pairs_.size(); ++p)
+        if (turns_[next_[pairs_[p].i]].pair == p && turns_[next_[pairs_[p].j]].pair == p) ready_.push_back(p);
+}
+
+void PairColours::give_colour(std::uint32_t number) {
+    const ContactPair& pair = pairs_[number];
+    const auto colour = static_cast<std::size_t>(std::countr_one(taken_[pair.i] | taken_[pair.j]));
+    if (colour >= most_colours) {  // a rod with very many neighbours
+        beyond_.push_back(number);
+        return;
+    }
+    taken_[pair.i] |= std::uint64_t{1} << colour;
+    taken_[pair.j] |= std::uint64_t{1} << colour;
+    if (by_colour_.size() <= colour) by_colour_.resize(colour + 1);
+    by_colour_[colour].push_back(pair);
+}
+
+/// The pair of a place whose turn it was has its colour: the next may be ready.
+void PairColours::advance(std::uint32_t place) {
+    if (++next_[place] == begin_[place + 1]) return;
+    const std::uint32_t p = turns_[next_[place]].pair;
+    const ContactPair& pair = pairs_[p];
+    const std::uint32_t other = pair.i == place ? pair.j : pair.i;
+    if (next_[other] < begin_[other + 1] && turns_[next_[other]].pair == p) ready_.push_back(p);
+}
+
+/// Each alone, in order.
+void PairColours::give_colours_beyond_most(const ContactMatrix& contact_matrix) {
+    const auto key = [&](std::uint32_t p) {
+        const ContactPair& pair = pairs_[p];
+        return std::tuple(priority_[p], contact_matrix.id_of(pair.i), contact_matrix.id_of(pair.j),
+                          contact_matrix.contacts().image[pair.first], pair.first);
+    };
+    std::sort(beyond_.begin(), beyond_.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    for (const std::uint32_t p : beyond_) {
+        by_colour_.resize(std::max(by_colour_.size(), most_colours));
+        by_colour_.push_back({pairs_[p]});
+    }
+}
+
+}  // namespace jostle

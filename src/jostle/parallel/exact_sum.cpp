@@ -1,0 +1,86 @@
+#include "jostle/parallel/exact_sum.hpp"
+
+#include "jostle/math/vectorised.hpp"
+
+namespace jostle {
+
+namespace {
+
+constexpr std::size_t lanes = 8;
+using Lanes = std::array<double, lanes>;
+
+/// The whole of a batch in parts that are exact: multiples of three units, and what is left of each number.
+struct Parts {
+    Lanes coarse{}, middle{}, fine{};
+    bool something_left = false;
+};
+
+JOSTLE_VECTORISED double largest_magnitude(const double* numbers) {
+    Lanes largest{};
+    for (std::size_t k = 0; k < ExactSum::batch; k += lanes)
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            const double magnitude = std::fabs(numbers[k + lane]);
+            largest[lane] = magnitude <= largest[lane] ? largest[lane] : magnitude;
+        }
+    double all = 0.0;
+    for (const double one : largest) all = one <= all ? all : one;
+    return all;
+}
+
+/// (x + shift) - shift is x rounded to a multiple of the unit in the last place of `shift`, and what is left is exact.
+/// Of the multiples a batch's sum is exact, too, for it stays below 2^53 units.
+JOSTLE_VECTORISED void split(const double* numbers, double coarse_shift, double middle_shift, double fine_shift,
+                             double* left, Parts& parts) {
+    Lanes coarse{}, middle{}, fine{}, any_left{};
+    for (std::size_t k = 0; k < ExactSum::batch; k += lanes)
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+            double x = numbers[k + lane];
+            double multiple = (x + coarse_shift) - coarse_shift;
+            coarse[lane] += multiple;
+            x -= multiple;
+            multiple = (x + middle_shift) - middle_shift;
+            middle[lane] += multiple;
+            x -= multiple;
+            multiple = (x + fine_shift) - fine_shift;
+            fine[lane] += multiple;
+            x -= multiple;
+            left[k + lane] = x;
+            any_left[lane] += std::fabs(x);
+        }
+    parts = {coarse, middle, fine, false};
+    for (const double one : any_left) parts.something_left = parts.something_left || one != 0.0;
+}
+
+}  // namespace
+
+void ExactSum::add_all(std::span<const double> numbers) {
+    constexpr std::size_t many = 32;
+    std::array<double, batch> padded;
+    const auto one_by_one = [&] {
+        for (const double number : numbers) add(number);
+    };
+    if (numbers.size() < many) return one_by_one();
+    std::copy(numbers.begin(), numbers.end(), padded.begin());
+    std::fill(padded.begin() + static_cast<std::ptrdiff_t>(numbers.size()), padded.end(), 0.0);
+    const double largest = largest_magnitude(padded.data());
+    if (largest == 0.0) return;
+    if (!(largest < 1e250 && largest > 1e-200)) return one_by_one();  // shifts would leave the range of doubles
+    int exponent = 0;                                                 // largest < 2^exponent
+    std::frexp(largest, &exponent);
+    constexpr int width = std::bit_width(batch), bits = 52;
+    // Multiples of 2^(exponent + width - 52), each at most 2^exponent: a batch stays below 2^52 of them. What is left
+    // is at most half a unit, and so on.
+    const auto shift = [&](int level) { return std::ldexp(1.5, exponent + width - level * (bits - width)); };
+    std::array<double, batch> left;
+    Parts parts;
+    split(padded.data(), shift(0), shift(1), shift(2), left.data(), parts);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        add(parts.coarse[lane]);
+        add(parts.middle[lane]);
+        add(parts.fine[lane]);
+    }
+    if (!parts.something_left) return;
+    for (const double one : left) add(one);
+}
+
+}  // namespace jostle

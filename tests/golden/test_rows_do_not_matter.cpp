@@ -1,0 +1,94 @@
+// Where rods stand in memory does not matter: rows are shuffled at the start, or before every step, and every number of
+// the state, of the steps' reports, of sums and fields, and every byte of a checkpoint is the same, for any number of
+// threads.
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <numeric>
+#include <random>
+
+#include "golden_hash.hpp"
+#include "jostle/disk/durable_file.hpp"
+#include "jostle/measurement/measurement.hpp"
+#include "jostle/parallel/parallel_for.hpp"
+#include "jostle/rods/space_filling_order.hpp"
+#include "jostle/scene_file/rods_of_scene.hpp"
+#include "jostle/setup/assemble.hpp"
+#include "support/temporary_folder.hpp"
+
+using namespace jostle;
+
+namespace {
+
+const std::filesystem::path scenes = std::filesystem::path(JOSTLE_TEST_SOURCES) / "golden" / "scenes";
+constexpr int steps = 24;
+
+enum class Rows { as_they_are, shuffled_once, shuffled_at_every_step };
+
+std::vector<std::uint32_t> any_order(std::size_t count, std::mt19937& random) {
+    std::vector<std::uint32_t> order(count);
+    std::iota(order.begin(), order.end(), 0U);
+    std::shuffle(order.begin(), order.end(), random);
+    return order;
+}
+
+struct Outcome {
+    std::uint64_t state, results;
+    std::string summary, checkpoint;
+    bool operator==(const Outcome&) const = default;
+};
+
+Outcome outcome_of(const Scene& scene, const Beginning& beginning, Rows rows, int threads) {
+    parallel::set_thread_count(threads);
+    std::mt19937 random(5);
+    Rods rods = beginning.rods;
+    if (rows != Rows::as_they_are) rods = reordered(rods, any_order(rods.size(), random));
+    Simulation simulation = assemble(scene, beginning.box, std::move(rods), {}, beginning.springs);
+    Measurement measurement(scene, simulation);
+    Hash results;
+    for (int k = 1; k <= steps; ++k) {
+        if (rows == Rows::shuffled_at_every_step) simulation.reorder(any_order(simulation.rods().size(), random));
+        const StepReport report = simulation.step();
+        REQUIRE(report.status == LcpStatus::converged);
+        add_results(results, report, simulation);
+        for (const LineageEvent& event : simulation.lineage()) results.add(event.id, event.mother, event.length);
+        if (rows == Rows::shuffled_at_every_step) simulation.reorder(any_order(simulation.rods().size(), random));
+        const Due due = measurement.add(report, simulation);
+        if (due.row) results.add(measurement.last_row());
+        if (due.field)
+            for (const auto& row : measurement.last_field()) results.add(row);
+    }
+    const TemporaryFolder folder;
+    write_checkpoint(folder.path(), checkpoint_of(simulation, measurement.sums(), "scene"));
+    return {state_hash(simulation), results.value(), measurement.summary(simulation).dump(),
+            read_file(folder.path() + "/checkpoint")};
+}
+
+}  // namespace
+
+TEST_CASE("shuffled rows change no bit") {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(scenes)) {
+        if (entry.path().extension() != ".toml") continue;
+        ++count;
+        CAPTURE(entry.path());
+        Scene scene = read_scene(entry.path());
+        const Beginning beginning = beginning_of(scene, entry.path());
+        scene.output.stress_conventions = true;
+        scene.output.series_every = 3;
+        scene.output.field_every = 7;
+        const Outcome expected = outcome_of(scene, beginning, Rows::as_they_are, 1);
+        for (const Rows rows : {Rows::shuffled_once, Rows::shuffled_at_every_step})
+            for (const int threads : {1, 3}) {
+                const Outcome outcome = outcome_of(scene, beginning, rows, threads);
+                CAPTURE(static_cast<int>(rows));
+                CAPTURE(threads);
+                CHECK(outcome.state == expected.state);
+                CHECK(outcome.results == expected.results);
+                CHECK(outcome.summary == expected.summary);
+                CHECK(outcome.checkpoint == expected.checkpoint);
+            }
+    }
+    CHECK(count >= 12);
+}
