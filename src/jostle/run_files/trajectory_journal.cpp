@@ -7,13 +7,13 @@ namespace {
 
 using Content = TrajectoryJournal::Content;
 
-constexpr std::string_view magic = "\x89JTRAJ\r\n";
-constexpr std::uint32_t format_version = 1;
+constexpr std::string_view journal_magic = "\x89JTRAJ\r\n";
+constexpr std::uint32_t journal_version = 1;
 constexpr std::uint64_t file_header_bytes = 16;
 constexpr std::array<char, 8> frame_mark = {'F', 'R', 'A', 'M', 'E', 0, 0, 0};
 constexpr std::uint64_t frame_header_bytes = 72;
 constexpr std::uint64_t rod_bytes = 52, stress_bytes = 72;
-constexpr std::uint64_t checksum_bytes = 8;
+constexpr std::uint64_t frame_checksum_bytes = 8;
 constexpr const char* put_back = "Put the file back, or start again with --fresh";
 
 std::uint64_t bytes_per_rod(Content content) {
@@ -22,9 +22,9 @@ std::uint64_t bytes_per_rod(Content content) {
 
 std::string file_header(Content content) {
     ByteWriter writer;
-    writer.put(format_version);
+    writer.put(journal_version);
     writer.put(static_cast<std::uint32_t>(content));
-    return std::string(magic) + writer.bytes();
+    return std::string(journal_magic) + writer.bytes();
 }
 
 void put_single(ByteWriter& writer, const std::vector<Vec3>& vectors) {
@@ -62,7 +62,7 @@ void take_rods(ByteReader& reader, std::uint64_t count, Content content, Traject
 
 /// Whether the last 8 of `bytes` are the checksum of those before.
 bool sound(std::string_view bytes) {
-    const std::size_t size = bytes.size() - checksum_bytes;
+    const std::size_t size = bytes.size() - frame_checksum_bytes;
     return ByteReader(bytes.substr(size)).take<std::uint64_t>() == checksum(bytes.substr(0, size));
 }
 
@@ -157,11 +157,11 @@ TrajectoryReader::TrajectoryReader(const std::string& path) : file_(path), offse
                            "the trajectory is truncated: it has " + std::to_string(buffer_.size()) +
                                " bytes, its header alone has " + std::to_string(file_header_bytes),
                            put_back);
-    if (!buffer_.starts_with(magic))
+    if (!buffer_.starts_with(journal_magic))
         throw refused_file(path, "is not a trajectory journal of jostle: it does not begin with the right 8 bytes",
                            put_back);
     throw refused_file(
-        path, "the trajectory journal is damaged or has another format version than " + std::to_string(format_version),
+        path, "the trajectory journal is damaged or has another format version than " + std::to_string(journal_version),
         "Go on with the jostle that wrote it, or start again with --fresh");
 }
 
@@ -183,7 +183,7 @@ bool TrajectoryReader::next(TrajectoryFrame& frame) {
     if (frames_ > 0 && frame.step <= last_step_) throw damaged("is not later than the frame before it");
 
     if (count > (file_.size() - offset_) / bytes_per_rod(content_)) return false;
-    const std::uint64_t rest_bytes = count * bytes_per_rod(content_) + checksum_bytes;
+    const std::uint64_t rest_bytes = count * bytes_per_rod(content_) + frame_checksum_bytes;
     file_.read_up_to(rest_bytes, buffer_);
     if (buffer_.size() < rest_bytes) return false;
     whole += buffer_;

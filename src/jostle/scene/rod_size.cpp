@@ -19,8 +19,8 @@ namespace jostle {
 
 namespace {
 
-constexpr std::size_t part = 256;        ///< rods whose numbers are drawn together
-constexpr double bytes_per_rod = 480.0;  ///< of a run where they are dilute, its least (docs/performance.md)
+constexpr std::size_t drawn_together = 256;  ///< rods whose numbers are drawn together
+constexpr double bytes_per_rod = 480.0;      ///< of a run where they are dilute, its least (docs/performance.md)
 
 /// Of the machine, or what this process is allowed of it.
 double bytes_of_memory() {
@@ -68,9 +68,9 @@ std::vector<RodSize> rod_sizes(const Scene& scene) {
     const RodSize deviation = {scene.rods.length_deviation, scene.rods.diameter_deviation};
     std::vector<RodSize> sizes(scene.rods.count, mean);
     if (rods_are_alike(scene)) return sizes;
-    parallel_for_blocks(sizes.size(), part, [&](std::size_t, std::size_t begin, std::size_t end) {
-        std::array<std::uint64_t, part> ids;
-        std::array<Normals, part> normals;
+    parallel_for_blocks(sizes.size(), drawn_together, [&](std::size_t, std::size_t begin, std::size_t end) {
+        std::array<std::uint64_t, drawn_together> ids;
+        std::array<Normals, drawn_together> normals;
         const std::size_t count = end - begin;
         std::iota(ids.begin(), ids.end(), std::uint64_t{begin});
         draw(scene.seed, 0, std::span(ids).first(count), std::span(normals).first(count));

@@ -27,7 +27,7 @@ constexpr double last_price = 8.0;
 /// by no less in a sweep.
 constexpr double rise_as_all_are_placed = 0.5, least_rise = 0.02;
 /// It is over earlier, too, once fewer rods than this overlap.
-constexpr double few = 0.01;
+constexpr double few_overlaps = 0.01;
 
 // Brownian steps, in diameters of the thinnest rod. The first are uncorrected: the shift of the correction asks for
 // gaps that rods just pushed apart do not have.
@@ -70,7 +70,7 @@ public:
 private:
     void let_overlap() {
         MonteCarlo rods(rods_, box_, seed_);
-        const double enough = few * static_cast<double>(rods_.size());
+        const double enough = few_overlaps * static_cast<double>(rods_.size());
         double share_placed = 1.0;
         for (double price = 0.0; price < last_price;) {
             price += std::max(rise_as_all_are_placed * share_placed, least_rise);

@@ -16,9 +16,10 @@ constexpr double opened_each_round = 0.1;
 constexpr double free_space = 1e-3;
 constexpr double reach = 0.1;
 constexpr double largest_move = 0.2;  ///< of any point of a rod in a round
-constexpr double tolerance = 1e-4;
+constexpr double apart_tolerance = 1e-4;
 constexpr int most_rounds = 2000;
-constexpr double rounding = 1e-12;  ///< overlaps that are none: of a rod with its own image in a box of just its width
+constexpr double overlap_rounding =
+    1e-12;  ///< overlaps that are none: of a rod with its own image in a box of just its width
 constexpr std::uint64_t iterations_each_round = 300;
 
 /// Moves the rods by the velocities (time step 1), all slowed down alike so that none goes too far.
@@ -55,7 +56,7 @@ PushApartResult push_apart(Rods& rods, const Box& box, Mobility& mobility) {
     for (;; ++result.rounds) {
         neighbours.update(rods, box, reaches);
         result.overlap = find_contacts(rods, box, neighbours, reaches, contacts);
-        result.apart = result.overlap <= rounding * thinnest;
+        result.apart = result.overlap <= overlap_rounding * thinnest;
         if (result.apart || result.rounds == most_rounds) return result;
 
         std::vector<double> b(contacts.size());
@@ -65,7 +66,7 @@ PushApartResult push_apart(Rods& rods, const Box& box, Mobility& mobility) {
         const ContactMatrix contact_matrix(contacts, rods.id);
         const DelassusOperator matrix(contact_matrix, rods, mobility);
         LcpSettings settings;
-        settings.tolerance = tolerance * thinnest;
+        settings.tolerance = apart_tolerance * thinnest;
         settings.max_iterations = iterations_each_round;
         // A rough solution still leads apart; only the last rounds need to be, and are, solved to the tolerance.
         ContactSolution solution;
