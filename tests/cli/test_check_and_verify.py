@@ -138,6 +138,14 @@ def test_check_reads_the_rods_file(tmp_path):
     assert number(derived["phi"]) == pytest.approx(volume / 1000.0, rel=1e-5)
 
 
+def test_a_lattice_that_has_no_room_is_found_by_check(tmp_path):
+    write_scene(tmp_path, changed(RODS, rods={"count": 12, "start": "lattice"}, box={"volume_fraction": None, "edges": [7.0, 2.5, 2.5]}))
+    checked = command(tmp_path, "check", "scene.toml")
+    require_one_line(checked, 'rods.start = "lattice": 12 rods do not fit into the box in rows')
+    assert run(tmp_path).stderr == checked.stderr
+    assert not (tmp_path / "run").exists()
+
+
 def test_without_brownian_motion(tmp_path):
     _, derived = check(tmp_path, changed(RODS, motion={"brownian": False, "self_propulsion": 0.5}))
     assert "D_R, 1/D_R" not in derived and "rms step / D" not in derived
