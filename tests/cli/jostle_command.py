@@ -19,7 +19,7 @@ DONE, BAD_INPUT, NUMERICS, DISK, STOPPED = 0, 2, 3, 4, 75
 # Files that are the same for every way to the end of a run. trajectory.h5 is compared by its datasets.
 RESULTS = ("scene.toml", "resolved.toml", "series.csv", "series.json", "contacts.csv", "contacts.json", "lineage.csv", "field.csv", "field.json", "checkpoint",
            "trajectory.journal", "summary.json")
-NOTICES = ("jostle: going on from step ", "jostle: start in ")
+NOTICES = ("jostle: going on from step ", "jostle: start in ", "jostle: annealing the start: ")
 TIME_STEP = 0.02
 
 # 50 short rods that touch often, every file written, no two of the intervals in step.

@@ -8,7 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from campaign import Defect, MOST_SECONDS
+from campaign import Defect, MOST_SECONDS, PATIENCE
 
 MODULE = Path(os.environ["JOSTLE"]).parents[1] / "python"
 CALLS = Path(__file__).with_name("misuse_calls.py")
@@ -25,7 +25,7 @@ def try_calls(seed, folder):
     environment = {**os.environ, "PYTHONPATH": str(MODULE), "PYTHONFAULTHANDLER": "1", "OMP_NUM_THREADS": "1"}
     try:
         result = subprocess.run([sys.executable, CALLS, str(seed)], cwd=folder, capture_output=True, text=True,
-                                timeout=MOST_SECONDS, env=environment, errors="backslashreplace")
+                                timeout=PATIENCE * MOST_SECONDS, env=environment, errors="backslashreplace")
     except subprocess.TimeoutExpired as hung:
         raise Defect(f"calls of seed {seed}: no end; the last was {(hung.stdout or b'')[-300:]!r}") from None
     if result.returncode != 0:
