@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "jostle/measurement/frame_steps.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_box.hpp"
 #include "jostle/scene/scene_motion.hpp"
@@ -205,10 +206,14 @@ void print_cost(const Scene& scene, const Population& population, const Box& box
                   fmt::format("{:.3g}{}", filled, filled <= crowded ? "" : ": cells have no room to grow so many"));
     }
     const double rows = steps / every;
-    const double frames =
-        scene.output.trajectory_every > 0 ? steps / static_cast<double>(scene.output.trajectory_every) : 0.0;
+    const FrameSteps frame_steps(scene, dt, population.count);
+    const double frames = frame_steps.frames(steps);
     print("steps", fmt::format("{:.6g}{}", steps,
                                scene.time.equilibration ? "" : " (if equilibration takes a quarter of production)"));
+    if (frame_steps.every() > 0)
+        print("frames", scene.output.trajectory_times == FrameTimes::logarithmic
+                            ? fmt::format("{:.0f}, at logarithmic times", frames)
+                            : fmt::format("{:.0f}, one every {} steps", frames, frame_steps.every()));
     print("memory, about", fmt::format("{:.0f} MB", 20.0 + count * bytes_per_rod(densest) / 1e6));
     print("disk, about", fmt::format("{:.1f} MB", (rows * 400.0 + frames * count * 52.0 + count * 250.0) / 1e6));
     const double on_the_way = 0.5 * (phi + densest);  // of exponential growth, mean over the cells

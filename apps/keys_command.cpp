@@ -34,7 +34,7 @@ nlohmann::json description(const Member&, const Quantity& quantity) {
 }
 template <class Member>
 nlohmann::json description(const Member&, const Count& count) {
-    return {{"kind", "whole number"}, {"at_least", count.lower}, {"at_most", count.upper}};
+    return {{"kind", "whole number"}, {"at_least", count.lower}, {"at_most", count.upper}, {"auto", count.automatic}};
 }
 template <class Member>
 nlohmann::json description(const Member&, const Plain&) {
@@ -69,7 +69,7 @@ std::string allowed_values(const nlohmann::json& key) {
                        bound("at_most"));
     if (!whole && !key["micro_unit"].get<std::string>().empty())
         text += fmt::format(" ({})", key["micro_unit"].get<std::string>());
-    if (!whole && key["auto"].get<bool>()) text += ", or \"auto\"";
+    if (key["auto"].get<bool>()) text += ", or \"auto\"";
     return text;
 }
 

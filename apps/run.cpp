@@ -144,6 +144,15 @@ void Run::write_trajectory() const {
                trajectory_attributes(run_scene_, options_.command_line), &measurement_.series());
 }
 
+/// The last line: where the files are, and how to look at them.
+std::string Run::files_and_report() const {
+    const std::string folder = directory_.path();
+    const bool plain =
+        folder.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,/") ==
+        std::string::npos;
+    return fmt::format("files in {}; to look at them: jostle report {}", folder, plain ? folder : "'" + folder + "'");
+}
+
 ExitCode Run::stop_early(const std::string& reason) {
     checkpoint();
     write_trajectory();
@@ -196,6 +205,6 @@ ExitCode Run::finish() {
     if (options_.json)
         std::fputs(text.c_str(), stdout);
     else if (!options_.quiet)
-        std::printf("%s%s\n", summary_text(summary).c_str(), ("files in " + directory_.path()).c_str());
+        std::printf("%s%s\n", summary_text(summary).c_str(), files_and_report().c_str());
     return ExitCode::done;
 }

@@ -32,6 +32,7 @@ private:
     std::string reason_to_stop() const;
     void show_progress(const std::string& remark = {});
     void write_trajectory() const;
+    std::string files_and_report() const;
     ExitCode stop_early(const std::string& reason);
     ExitCode die_out();
     ExitCode give_up(const jostle::StepReport& report, const std::string& failure, const std::string& advice);

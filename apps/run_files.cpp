@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "jostle/disk/durable_file.hpp"
+#include "jostle/measurement/frame_steps.hpp"
 #include "jostle/measurement/series_columns.hpp"
 #include "jostle/rods/space_filling_order.hpp"
 #include "jostle/stress/stress_per_rod.hpp"
@@ -35,7 +36,7 @@ std::array<SideTable, 3> side_tables(const Scene& scene) {
 
 /// The series, cut back to the checkpoint, after all files of the run were found to be sound.
 SeriesFile resumed_series(const RunDirectory& directory, const Scene& scene, const Checkpoint& checkpoint) {
-    if (scene.output.trajectory_every > 0)
+    if (keeps_frames(scene))
         TrajectoryJournal::require_frames(directory.file("trajectory.journal"), checkpoint.trajectory_bytes,
                                           checkpoint.trajectory_hash);
     for (const SideTable& table : side_tables(scene))
@@ -81,7 +82,7 @@ RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::strin
       series_file_(SeriesFile::create(directory.file("series.csv"), series_columns(scene).about())),
       contact_columns_(contact_columns(scene)),
       lineage_columns_(lineage_columns(scene)) {
-    if (scene.output.trajectory_every > 0) {
+    if (keeps_frames(scene)) {
         const bool stress = scene.output.stress_per_rod;
         journal_ = TrajectoryJournal::create(
             directory.file("trajectory.journal"),
@@ -105,7 +106,7 @@ RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::strin
       series_file_(resumed_series(directory, scene, checkpoint)),
       contact_columns_(contact_columns(scene)),
       lineage_columns_(lineage_columns(scene)) {
-    if (scene.output.trajectory_every > 0)
+    if (keeps_frames(scene))
         journal_ = TrajectoryJournal::resume(directory.file("trajectory.journal"), checkpoint.trajectory_bytes,
                                              checkpoint.trajectory_hash);
     const auto tables = side_tables(scene);

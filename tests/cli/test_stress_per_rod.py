@@ -114,8 +114,8 @@ def test_cells_that_divide_and_die(tmp_path):
 
 
 def test_without_frames_it_is_refused(tmp_path):
-    scene = changed(WITH_STRESS, output={"trajectory_every": None})
+    scene = changed(WITH_STRESS, output={"trajectory_every": 0})
     write_scene(tmp_path, scene)
     at = place_of(scene_text(scene), "output", "stress_per_rod")
     require_one_line(command(tmp_path, "check", "scene.toml"), f"scene.toml:{at}: output.stress_per_rod = true",
-                     "is not used without output.trajectory_every", "Set trajectory_every")
+                     "is not used with output.trajectory_every = 0", "Set trajectory_every")

@@ -33,7 +33,8 @@ Measurement::Measurement(const Scene& scene, const Simulation& simulation, StepS
       series_(begun(std::move(earlier_rows), series_columns_)),
       begin_(series_.rows() > 0 ? 0.0 : simulation.clock().time - sums_.steps * simulation.settings().time_step),
       length_(scene_, simulation.settings().time_step, free_clocks(scene_, simulation.mobility(), simulation.rods()),
-              begin_) {}
+              begin_),
+      frame_steps_(scene_, simulation.settings().time_step, static_cast<double>(simulation.rods().size())) {}
 
 Due Measurement::add(const StepReport& report, const Simulation& simulation) {
     if (report.status != LcpStatus::converged) throw std::logic_error("a step that was not made cannot be measured");
@@ -41,7 +42,7 @@ Due Measurement::add(const StepReport& report, const Simulation& simulation) {
     if (simulation.rods().size() == 0) return {};
     const auto due = [step = simulation.clock().step](std::uint64_t every) { return every > 0 && step % every == 0; };
     const Scene::Output& output = scene_.output;
-    const Due now = {due(output.series_every), due(output.field_every), due(output.trajectory_every),
+    const Due now = {due(output.series_every), due(output.field_every), frame_steps_.is_due(simulation.clock().step),
                      due(output.checkpoint_every)};
     if (now.row) {
         sums_.look_at_swimmers(scene_, simulation);

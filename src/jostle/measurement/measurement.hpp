@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "jostle/measurement/frame_steps.hpp"
 #include "jostle/measurement/run_length.hpp"
 #include "jostle/measurement/series_columns.hpp"
 #include "jostle/measurement/side_tables.hpp"
@@ -64,6 +65,7 @@ private:
     TableRows last_field_;
     double begin_;  ///< time of the beginning of the first row in `series_`
     RunLength length_;
+    FrameSteps frame_steps_;
     bool is_complete_ = false;
 };
 

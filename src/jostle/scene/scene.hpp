@@ -18,6 +18,7 @@ enum class ContactModel { hard, wca };
 enum class WarmStarts { automatic, always, never };
 enum class StepRule { bb1, bb2, alternating };
 enum class ResidualKind { length, paper };
+enum class FrameTimes { even, logarithmic };
 
 /// The step of a scene that names none: rms_step of `Scene::Time`.
 inline constexpr double default_rms_step = 0.03;
@@ -111,8 +112,9 @@ struct Scene {
     } time;
 
     struct Output {
-        std::uint64_t series_every = 10;          // steps a row
-        std::uint64_t trajectory_every = 0;       // steps a frame; 0: none
+        std::uint64_t series_every = 10;                // steps a row
+        std::optional<std::uint64_t> trajectory_every;  // steps a frame; 0: none; "auto" (empty): FrameSteps
+        FrameTimes trajectory_times = FrameTimes::even;
         std::uint64_t checkpoint_every = 1000;    // steps
         bool contacts = false;                    // write the active contacts of every series step
         bool stress_conventions = false;          // other conventions of the collision stress, too

@@ -38,6 +38,7 @@ struct Quantity {
 struct Count {
     std::uint64_t lower = 0;
     std::uint64_t upper = std::numeric_limits<std::int64_t>::max();  // the largest whole number of TOML
+    bool automatic = false;                                          ///< "auto" is admitted, and means an empty member
 };
 /// ... or a text, one of a few words (`words`), or true and false.
 struct Plain {};
@@ -106,7 +107,8 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("time", "equilibration", scene.time.equilibration, Quantity{dim::time, zero_or_positive, true});
     visit("time", "production", scene.time.production, Quantity{dim::time, positive});
     visit("output", "series_every", scene.output.series_every, Count{1, most_steps});
-    visit("output", "trajectory_every", scene.output.trajectory_every, Count{0});
+    visit("output", "trajectory_every", scene.output.trajectory_every, Count{.automatic = true});
+    visit("output", "trajectory_times", scene.output.trajectory_times, Plain{});
     visit("output", "checkpoint_every", scene.output.checkpoint_every, Count{1});
     visit("output", "contacts", scene.output.contacts, Plain{});
     visit("output", "stress_conventions", scene.output.stress_conventions, Plain{});
@@ -165,6 +167,10 @@ constexpr auto words(StepRule) {
 constexpr auto words(ResidualKind) {
     return std::to_array<std::pair<std::string_view, ResidualKind>>(
         {{"length", ResidualKind::length}, {"paper", ResidualKind::paper}});
+}
+constexpr auto words(FrameTimes) {
+    return std::to_array<std::pair<std::string_view, FrameTimes>>(
+        {{"even", FrameTimes::even}, {"logarithmic", FrameTimes::logarithmic}});
 }
 
 /// The word for `choice` in scenes and outputs.

@@ -61,6 +61,9 @@ struct RangeCheck {
                value < count.lower ? fmt::format("at least {}", count.lower) : fmt::format("at most {}", count.upper),
                "");
     }
+    void operator()(const std::optional<std::uint64_t>& value, const Count& count) const {
+        if (value) (*this)(*value, count);
+    }
     template <class Member>
     void operator()(const Member&, const Plain&) const {}
 };

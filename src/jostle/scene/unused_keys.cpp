@@ -86,8 +86,9 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
         unused.push_back({"growth.stall_memory", "is not used without growth.stall_force: nothing stalls",
                           "Set stall_force, or remove stall_memory"});
     if (scene.output.trajectory_every == 0)
-        unused.push_back({"output.stress_per_rod", "is not used without output.trajectory_every: there are no frames",
-                          "Set trajectory_every, or remove it"});
+        for (const char* key : {"output.stress_per_rod", "output.trajectory_times"})
+            unused.push_back({key, "is not used with output.trajectory_every = 0: there are no frames",
+                              "Set trajectory_every = \"auto\", or remove it"});
     if (scene.output.field_every == 0)
         unused.push_back({"output.field_spacing", "is not used without output.field_every: there is no field",
                           "Set field_every, or remove it"});

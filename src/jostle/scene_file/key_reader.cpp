@@ -46,7 +46,8 @@ void KeyReader::read(const toml::node& node, std::array<bool, 3>& member, const 
 }
 
 void KeyReader::read(const toml::node& node, std::uint64_t& member, const Count& count) const {
-    const std::string allowed = fmt::format("a whole number of at least {}", count.lower);
+    const std::string allowed =
+        fmt::format("a whole number of at least {}{}", count.lower, count.automatic ? ", or \"auto\"" : "");
     if (const auto* decimal = node.as_floating_point()) {
         const double value = decimal->get();
         const bool whole = value >= 0.0 && value < 1e15 && value == std::trunc(value);

@@ -41,11 +41,11 @@ public:
             if (word == given) member = choice;
     }
 
-    template <class Number>
-    void read(const toml::node& node, std::optional<Number>& member, const Quantity& quantity) const {
+    template <class Number, class Spec>
+    void read(const toml::node& node, std::optional<Number>& member, const Spec& spec) const {
         member.reset();
-        if (quantity.automatic && node.is_string() && node.as_string()->get() == "auto") return;
-        read(node, member.emplace(), quantity);
+        if (spec.automatic && node.is_string() && node.as_string()->get() == "auto") return;
+        read(node, member.emplace(), spec);
     }
 
 private:

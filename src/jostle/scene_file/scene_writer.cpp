@@ -63,11 +63,9 @@ std::string unit_comment(const Scene&, const Other&) {
     return "";
 }
 
-constexpr bool is_automatic(const Quantity& quantity) {
-    return quantity.automatic;
-}
-template <class Other>
-constexpr bool is_automatic(const Other&) {
+template <class Spec>
+constexpr bool is_automatic(const Spec& spec) {
+    if constexpr (requires { spec.automatic; }) return spec.automatic;
     return false;
 }
 

@@ -33,11 +33,12 @@ public:
         draw_time(scene);
         draw_swimming(scene);
         scene.output.series_every = 1 + random_() % 1000;
-        scene.output.trajectory_every = random_() % 1000;
+        if (chance()) scene.output.trajectory_every = random_() % 3 * 500;
+        if (scene.output.trajectory_every != 0U && chance()) scene.output.trajectory_times = FrameTimes::logarithmic;
         scene.output.checkpoint_every = 1 + (random_() >> 2);
         scene.output.contacts = chance();
         scene.output.stress_conventions = chance();
-        scene.output.stress_per_rod = scene.output.trajectory_every > 0 && chance();
+        scene.output.stress_per_rod = scene.output.trajectory_every != 0U && chance();
         if (chance()) scene.output.field_every = 1 + random_() % 1000;
         if (scene.output.field_every > 0 && chance()) scene.output.field_spacing = number(0.1, 10);
         if (chance()) scene.springs.file = text() + "springs.csv";
@@ -179,7 +180,8 @@ TEST_CASE("every key that means something is written, with its unit") {
                              "equilibration = \"auto\"",
                              "production = 50.0  # kT-1 D3 mu\n",
                              "series_every = 10\n",
-                             "trajectory_every = 0\n",
+                             "trajectory_every = \"auto\"\n",
+                             "trajectory_times = \"even\"\n",
                              "checkpoint_every = 1000\n",
                              "contacts = false\n"}) {
         CAPTURE(line);
