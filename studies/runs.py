@@ -6,6 +6,7 @@ import functools
 import json
 import pathlib
 import sys
+import tomllib
 
 import numpy
 
@@ -13,6 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path += [str(ROOT / "sweeps"), str(ROOT / "presentation")]
 
 import side_by_side  # noqa: E402  (the path comes first)
+from runs_table import flat  # noqa: E402
 from side_by_side import duration  # noqa: E402
 
 STOPPED_EARLY = 75
@@ -130,11 +132,16 @@ def toml(tables):
     return "\n".join(lines) + "\n"
 
 
+FRAMES = "output.trajectory_every"
+
+
 class Job(side_by_side.Job):
     """Of a study a run is known by its scene as it is written: what was measured by an earlier version of the program is used again."""
 
     def is_same(self):
-        return (self.folder / "scene.toml").read_text() == self.folder.with_name(self.name + ".toml").read_text()
+        """Frames are no matter."""
+        there, wanted = (flat(tomllib.loads(path.read_text())) for path in (self.folder / "scene.toml", self.folder.with_name(self.name + ".toml")))
+        return {**there, FRAMES: wanted.get(FRAMES)} == {**wanted, FRAMES: wanted.get(FRAMES)}
 
 
 def job_of(jostle, run, folder):
@@ -145,7 +152,8 @@ def job_of(jostle, run, folder):
         scene.write_text(run.text(1.0))  # first to learn the time step, then with the times that follow from it
         run.time_step = side_by_side.ask(jostle, scene).time_step
         scene.write_text(run.text(run.time_step))
-        job = Job(run.name, run.folder, [jostle, "run", scene, "--out", run.folder], side_by_side.ask(jostle, scene))
+        frames = [] if "trajectory_every" in run.scene.get("output", {}) else ["--set", f"{FRAMES}=0"]
+        job = Job(run.name, run.folder, [jostle, "run", scene, *frames, "--out", run.folder], side_by_side.ask(jostle, scene, *frames))
     except side_by_side.BadScene as refusal:
         raise RunFailed(f"{run.name}: {refusal}") from None
     if (run.folder / "scene.toml").exists() and not job.is_same():

@@ -1,0 +1,41 @@
+"""Frames that a run keeps by itself, and at logarithmic times; the line that names the report."""
+
+import signal
+
+from jostle_command import (DONE, RODS, STOPPED, changed, command, finish, kill, require_one_line, require_same_results, rows_of, run, start,
+                            wait_until, with_steps, write_scene)
+from read_h5md import read_h5md
+
+AUTO = changed(with_steps(RODS, 600), output={"trajectory_every": None})
+
+
+def test_a_hundred_frames_also_of_a_run_that_was_stopped(tmp_path):
+    write_scene(tmp_path / "whole", AUTO)
+    whole = finish(tmp_path / "whole")
+    assert read_h5md(whole / "trajectory.h5")["steps"] == list(range(0, 601, 6))
+    write_scene(tmp_path / "stopped", AUTO)
+    process = start(tmp_path / "stopped")
+    series = tmp_path / "stopped/run/series.csv"
+    wait_until(lambda: rows_of(series) > 20, process)
+    assert kill(process, signal.SIGTERM)[0] == STOPPED
+    require_same_results(finish(tmp_path / "stopped"), whole)
+
+
+def test_logarithmic_times(tmp_path):
+    write_scene(tmp_path, changed(AUTO, output={"trajectory_times": "logarithmic"}))
+    result = run(tmp_path)
+    assert result.returncode == DONE
+    assert result.stdout.splitlines()[-1] == "files in run; to look at them: jostle report run"
+    steps = read_h5md(tmp_path / "run/trajectory.h5")["steps"]
+    assert steps == sorted({0} | {round(10**(k / 20)) for k in range(56)})
+    assert steps[-1] == 562 and "frames                       47, at logarithmic times" in command(tmp_path, "check", "scene.toml").stdout
+
+
+def test_a_run_of_an_earlier_version_goes_on_without_frames(tmp_path):
+    """Its checkpoint says trajectory_every = 0, which was the default, and knows no trajectory_times."""
+    write_scene(tmp_path, changed(RODS, output={"trajectory_every": 0}))
+    finish(tmp_path)
+    write_scene(tmp_path, changed(with_steps(RODS, 120), output={"trajectory_every": None}))
+    require_one_line(run(tmp_path), "the checkpoint is of another scene", "trajectory_every = 0")
+    assert run(tmp_path, "--set", "output.trajectory_every=0").returncode == DONE
+    assert rows_of(tmp_path / "run/series.csv") == 24
