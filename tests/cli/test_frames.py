@@ -4,7 +4,7 @@ import signal
 
 from jostle_command import (DONE, RODS, STOPPED, changed, command, finish, kill, require_one_line, require_same_results, rows_of, run, start,
                             wait_until, with_steps, write_scene)
-from read_h5md import read_h5md
+from read_h5md import read as read_h5md
 
 AUTO = changed(with_steps(RODS, 600), output={"trajectory_every": None})
 
@@ -28,7 +28,7 @@ def test_logarithmic_times(tmp_path):
     assert result.stdout.splitlines()[-1] == "files in run; to look at them: jostle report run"
     steps = read_h5md(tmp_path / "run/trajectory.h5")["steps"]
     assert steps == sorted({0} | {round(10**(k / 20)) for k in range(56)})
-    assert steps[-1] == 562 and "frames                       47, at logarithmic times" in command(tmp_path, "check", "scene.toml").stdout
+    assert steps[-1] == 562 and f"{len(steps)}, at logarithmic times" in command(tmp_path, "check", "scene.toml").stdout
 
 
 def test_a_run_of_an_earlier_version_goes_on_without_frames(tmp_path):

@@ -54,7 +54,7 @@ def test_finished_run_again(finished_copy, finished):
     for _ in range(2):
         result = run(finished_copy)
         assert result.returncode == DONE
-        assert result.stdout.endswith("files in run\n")
+        assert result.stdout.endswith("files in run; to look at them: jostle report run\n")
         require_same_results(finished_copy / "run", finished / "run")
     sessions = json.loads((finished_copy / "run/run.json").read_text())["sessions"]
     assert [session["last_step"] for session in sessions] == [100, 100, 100]
@@ -102,7 +102,7 @@ def test_default_folder(spheres):
     result = command(spheres, "run", "sub/dense.toml", "--threads", "1")
     assert result.returncode == DONE
     assert (spheres / "dense.run/summary.json").exists()
-    assert result.stdout.endswith("files in dense.run\n")
+    assert result.stdout.endswith("files in dense.run; to look at them: jostle report dense.run\n")
 
 
 def test_empty_folder_and_new_folders_above(spheres):

@@ -48,7 +48,7 @@ def test_fresh_in_the_current_folder(finished_copy, finished):
     write_scene(finished_copy, changed(RODS, seed=9))
     result = command(folder, "run", "../scene.toml", "--out", ".", "--fresh")
     assert result.returncode == DONE, result.stderr
-    assert result.stdout.endswith(f"files in {folder}\n")
+    assert result.stdout.endswith(f"files in {folder}; to look at them: jostle report {folder}\n")
     require_same_results(finished_copy / "run.1", finished / "run")
     assert (folder / "series.csv").read_bytes() != (finished / "run/series.csv").read_bytes()
     assert command(finished_copy, "verify", "run").returncode == DONE
