@@ -13,6 +13,7 @@ import json
 import os
 import shlex
 import sys
+import tomllib
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -20,7 +21,10 @@ sys.path.append(str(HERE.parent / "presentation"))
 
 import durable  # noqa: E402  (the path comes first)
 import refusal  # noqa: E402
+import side_by_side  # noqa: E402
+from points import asked_for, parsed, points_of  # noqa: E402
 from refusal import Refusal  # noqa: E402
+from runs_table import NOT_BEGUN, flat, row_of, units_of  # noqa: E402
 
 RECORD = "sweep.json"
 NEEDED = {"numpy": "python3-numpy", "scipy": "python3-scipy"}
@@ -63,14 +67,12 @@ class Sweep:
 
     def __init__(self, options, ending=".sweep", steps=()):
         """`steps`: values of time.rms_step, as texts, with which every point is run."""
-        import side_by_side
-        from points import asked_for, parsed, points_of
-
         self.jostle, self.scene = options.jostle, options.scene
         self.folder = Path(options.out or Path(self.scene).stem + ending)
         self.processes = count_of("processes", options.processes, side_by_side.processors())
-        content = scene_content(self.scene)
+        content = scene_content(self.jostle, self.scene)
         table = content.pop("sweep", {})
+        table = table if isinstance(table, dict) else {}  # which `jostle check` refuses
         keys = asked_for(options.set, table)
         seeds = self.seeds(options.replicas or str(table.get("replicas", "")), keys, content)
         if not any(len(values) > 1 for values in keys.values()) and not steps and len(seeds) < 2:
@@ -83,7 +85,7 @@ class Sweep:
         # What does not vary is part of the scene.
         constants = {key: parsed(values[0]) for key, values in keys.items() if len(values) == 1}
         self.keys = [*(key for key in keys if key not in constants), *(["time.rms_step"] if steps else []), *(["seed"] if seeds else [])]
-        base = {**flat_scene(content), **constants}
+        base = {**flat(content), **constants}
         self.base = {key: value for key, value in base.items() if key not in (*self.keys, *ENDS)}
 
     @staticmethod
@@ -96,8 +98,6 @@ class Sweep:
         return [str(first + number) for number in range(count)] if count > 1 and isinstance(first, int) else []
 
     def value(self, point, key):
-        from points import parsed
-
         return parsed(point.value(key))
 
     def command(self, point, program):
@@ -105,8 +105,6 @@ class Sweep:
 
     def jobs(self):
         """Every point with what `jostle check` tells of it. Raises Refusal for the first that it refuses."""
-        import side_by_side
-
         told = side_by_side.ask_all(self.jostle, [(self.scene, *point.words()) for point in self.points], self.processes)
         for point, answer in zip(self.points, told):
             if isinstance(answer, side_by_side.BadScene):
@@ -165,26 +163,20 @@ def said(value, verb="was"):
     return f"{verb} not given" if value is None else f"{verb} {json.dumps(value)}"
 
 
-def scene_content(path):
-    """The tables of a scene; what is wrong with one is for `jostle check` to say."""
-    import tomllib
-
+def scene_content(jostle, path):
+    """The tables of a scene. Raises BadScene, in the words of `jostle check`, if it cannot be read."""
     try:
         return tomllib.loads(Path(path).read_text(encoding="utf-8-sig"))
     except (OSError, ValueError):
-        return {}
-
-
-def flat_scene(content):
-    from runs_table import flat
-
-    return flat(content)
+        try:
+            side_by_side.ask(jostle, path)
+        except side_by_side.BadScene as refused:
+            raise BadScene(str(refused)) from None
+        raise Refusal(path, "cannot be read a second time", "Give a file, and no pipe") from None
 
 
 def rows_of(sweep, jobs):
     """A row for every point, with its keys as they were asked for."""
-    from runs_table import NOT_BEGUN, row_of
-
     rows = []
     for point, job in zip(sweep.points, jobs):
         row = row_of(job.folder)
@@ -215,8 +207,6 @@ def tell_failure(job):
 
 def run_jobs(sweep, jobs):
     """Runs what is not done; whether it was stopped."""
-    import side_by_side
-
     done = sum(job.is_done() for job in jobs)
     print(f"jostle: {len(jobs)} runs in {sweep.folder}" + (f", {done} of them done before" if done else "")
           + (f"; about {side_by_side.foretold(jobs, sweep.processes)} on {sweep.processes} processors" if done < len(jobs) else ""),
@@ -228,7 +218,6 @@ def sweep():
     options = arguments()
     refusal.require_modules({**NEEDED, **(NEEDED_TO_DRAW if options.plot else {})})
     import outcome
-    from runs_table import units_of
 
     asked = Sweep(options)
     outcome.require(options.plot, options.against, asked.keys)

@@ -255,6 +255,14 @@ def test_a_sweep_that_the_scene_asks_for(tmp_path):
     require_one_line(sweep(tmp_path), "sweep.box.volume_fraction", "is not a list of values")
 
 
+def test_a_scene_that_cannot_be_read(tmp_path):
+    require_one_line(sweep(tmp_path), "scene.toml", "there is no such file")
+    write_scene(tmp_path, "[box\n")
+    require_one_line(sweep(tmp_path), "scene.toml:1")
+    write_scene(tmp_path, "sweep = 3\n" + scene_text(SPHERES))
+    require_one_line(sweep(tmp_path, *FRACTIONS), "sweep = 3")
+
+
 def test_extrapolation_of_a_run(scene):
     result = command(scene, "extrapolate", "scene.toml", "--rms-steps", "0.1,0.14,0.2", "--processes", "2",
                      "--set", "contact.overlap_limit=0.9")
