@@ -61,11 +61,12 @@ TEST_CASE("logarithmic times: twenty a decade") {
     scene.output.trajectory_times = FrameTimes::logarithmic;
     const FrameSteps frames(scene, 0.01, 10);
     CHECK(frames.every() == 1);
-    const std::vector<std::uint64_t> first = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 13, 14, 16,
-                                              18, 20, 22, 25, 28, 32, 35, 40, 45, 50, 56, 63, 71, 79, 89, 100};
+    const std::vector<std::uint64_t> first = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 13, 14, 16, 18,
+                                              20, 22, 25, 28, 32, 35, 40, 45, 50, 56, 63, 71, 79, 89, 100};
     CHECK(due(frames, 100) == first);
     CHECK(due(frames, 10000).size() == first.size() + 40);
     CHECK(frames.frames(10000) == static_cast<double>(first.size() + 40));
     scene.output.trajectory_every = 7;
-    CHECK(due(FrameSteps(scene, 0.01, 10), 79) == std::vector<std::uint64_t>{0, 7, 14, 21, 28, 35, 42, 49, 56, 63, 70, 77});
+    CHECK(due(FrameSteps(scene, 0.01, 10), 79) ==
+          std::vector<std::uint64_t>{0, 7, 14, 21, 28, 35, 42, 49, 56, 63, 70, 77});
 }

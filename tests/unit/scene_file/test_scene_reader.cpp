@@ -248,8 +248,8 @@ TEST_CASE("numbers out of range") {
          "at least 1"},
         {12, "[output]\ntrajectory_every = 0\ntrajectory_times = \"even\"\n[fluid]", 14, 20, "output.trajectory_times",
          "\"even\"", "is not used with output.trajectory_every = 0", ""},
-        {12, "[output]\ntrajectory_every = \"each\"\n[fluid]", 13, 20, "output.trajectory_every", "\"each\"", "wrong type",
-         "at least 0, or \"auto\""},
+        {12, "[output]\ntrajectory_every = \"each\"\n[fluid]", 13, 20, "output.trajectory_every", "\"each\"",
+         "wrong type", "at least 0, or \"auto\""},
         {12, "[output]\ntrajectory_every = -1\n[fluid]", 13, 20, "output.trajectory_every", "-1", "negative",
          "at least 0"},
     };
