@@ -81,6 +81,7 @@ ExitCode keys_command(bool json) {
     for_each_key(scene, [&](std::string_view table, std::string_view name, const auto& member, const auto& spec) {
         nlohmann::json key = description(member, spec);
         key["key"] = full_key(table, name);
+        key["may_change"] = spec.may_change;
         keys.push_back(std::move(key));
     });
     if (json) {

@@ -7,6 +7,7 @@
 #include "jostle/disk/durable_file.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/scene_file/rods_of_scene.hpp"
+#include "jostle/scene_file/same_scene.hpp"
 #include "jostle/scene_file/scene_reader.hpp"
 #include "jostle/scene_file/scene_settings.hpp"
 #include "jostle/scene_file/scene_writer.hpp"
@@ -81,17 +82,17 @@ ExitCode start_run(const RunOptions& options, const RunScene& scene, std::string
 
 ExitCode resume_run(const RunOptions& options, const RunScene& scene, const RunDirectory& directory,
                     Checkpoint checkpoint) {
-    require_same_scene(checkpoint, scene.resolved, directory.path());
+    require_same_scene(checkpoint, scene.scene, directory.path());
     require_same_springs(
         checkpoint,
         in_scene_file(scene.path, [&] { return springs_from_file(scene.scene, scene.path, checkpoint.rods); }),
         scene.scene.motion.reversal_rate > 0.0, springs_path(scene.scene, scene.path));
-    StepSums sums = StepSums::from_numbers(checkpoint.accumulators, scene.scene);
-    RunFiles files(directory, scene.scene, scene.resolved, checkpoint);
-    write_scene(scene, directory);  // it may have another end, and what was there may be damaged
+    StepSums sums = StepSums::from_named(std::move(checkpoint.sums), scene.scene, checkpoint.box);
     Simulation simulation =
         assemble(scene.scene, checkpoint.box, std::move(checkpoint.rods), {checkpoint.step, checkpoint.time},
                  std::move(checkpoint.springs), std::move(checkpoint.last_forces));
+    RunFiles files(directory, scene.scene, scene.resolved, simulation, checkpoint.files);
+    write_scene(scene, directory);  // it may have another end, and what was there may be damaged
     if (!options.quiet && !options.json)
         std::fprintf(stderr, "jostle: going on from step %llu\n", static_cast<unsigned long long>(checkpoint.step));
     Measurement measurement(scene.scene, simulation, std::move(sums), read_series(directory.file("series.csv")));

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "jostle/disk/durable_file.hpp"
+#include "jostle/error/input_error.hpp"
 #include "jostle/measurement/frame_steps.hpp"
 #include "jostle/measurement/series_columns.hpp"
 #include "jostle/rods/space_filling_order.hpp"
@@ -14,43 +15,57 @@ using namespace jostle;
 
 namespace {
 
+constexpr const char* series_name = "series.csv";
+
 /// Tables beside the series.
 struct SideTable {
-    std::string name;
+    DescribedTable table;
     bool wanted;
-    std::vector<SeriesColumn> columns;
-    std::uint64_t Checkpoint::*bytes;
-    std::uint64_t Checkpoint::*hash;
+
+    std::string file() const { return table.name + ".csv"; }
 };
 
 enum : std::size_t { contacts_table, lineage_table, field_table };
 
 std::array<SideTable, 3> side_tables(const Scene& scene) {
-    return {{{"contacts", scene.output.contacts, contact_columns(scene).about(), &Checkpoint::contacts_bytes,
-              &Checkpoint::contacts_hash},
-             {"lineage", scene.growth.rate > 0.0, lineage_columns(scene).about(), &Checkpoint::lineage_bytes,
-              &Checkpoint::lineage_hash},
-             {"field", scene.output.field_every > 0, field_columns(scene).about(), &Checkpoint::field_bytes,
-              &Checkpoint::field_hash}}};
+    return {{{{"contacts", contact_columns(scene).about()}, scene.output.contacts},
+             {{"lineage", lineage_columns(scene).about()}, scene.growth.rate > 0.0},
+             {{"field", field_columns(scene).about()}, scene.output.field_every > 0}}};
+}
+
+TrajectoryJournal::Content journal_content(const Scene& scene) {
+    return scene.output.stress_per_rod ? TrajectoryJournal::Content::rods_and_stress : TrajectoryJournal::Content::rods;
+}
+
+/// Frames that the run has, which go on with the same content.
+void require_frames(const std::string& path, const Scene& scene, const FilePosition& position) {
+    const auto content = TrajectoryJournal::require_frames(path, position.bytes, position.hash);
+    if (!keeps_frames(scene) || content == journal_content(scene)) return;
+    throw InputError({.key = "output.stress_per_rod",
+                      .value = scene.output.stress_per_rod ? "true" : "false",
+                      .problem = scene.output.stress_per_rod ? "the frames that the run has are without it"
+                                                             : "the frames that the run has are with it",
+                      .suggestion = "Restore the scene, give another folder with --out, or start again with --fresh"});
 }
 
 /// The series, cut back to the checkpoint, after all files of the run were found to be sound.
-SeriesFile resumed_series(const RunDirectory& directory, const Scene& scene, const Checkpoint& checkpoint) {
-    if (keeps_frames(scene))
-        TrajectoryJournal::require_frames(directory.file("trajectory.journal"), checkpoint.trajectory_bytes,
-                                          checkpoint.trajectory_hash);
-    for (const SideTable& table : side_tables(scene))
-        if (table.wanted)
-            SeriesFile::require_prefix(directory.file(table.name + ".csv"), table.columns, checkpoint.*table.bytes,
-                                       checkpoint.*table.hash);
-    return SeriesFile::resume(directory.file("series.csv"), series_columns(scene).about(), checkpoint.series_bytes,
-                              checkpoint.series_hash);
+SeriesFile resumed_series(const RunDirectory& directory, const Scene& scene, const FilePositions& positions) {
+    if (const auto journal = positions.find(trajectory_journal_name); journal != positions.end())
+        require_frames(directory.file(journal->first), scene, journal->second);
+    for (const SideTable& side : side_tables(scene))
+        if (const auto found = positions.find(side.file()); found != positions.end())
+            SeriesFile::require_prefix(directory.file(found->first), side.table.columns, found->second.bytes,
+                                       found->second.hash);
+    const auto series = positions.find(series_name);
+    const FilePosition position = series == positions.end() ? FilePosition{} : series->second;
+    return SeriesFile::resume(directory.file(series_name), series_columns(scene).about(), position.bytes,
+                              position.hash);
 }
+
+const Mat3 unknown = std::numeric_limits<double>::quiet_NaN() * Mat3{{1, 1, 1, 1, 1, 1, 1, 1, 1}};
 
 /// The stress of every rod (N) in the last step; not a number for a rod that was not in it.
 std::vector<Mat3> stress_of_last_step(const Simulation& simulation, const std::vector<std::uint64_t>& ids) {
-    const Mat3 unknown = std::numeric_limits<double>::quiet_NaN() * Mat3{{1, 1, 1, 1, 1, 1, 1, 1, 1}};
-    if (simulation.clock().step == 0) return std::vector<Mat3>(ids.size(), unknown);
     std::vector<Mat3> stress = stress_per_rod(simulation.collision_moments(), ids);
     for (const LineageEvent& event : simulation.lineage()) {
         const auto found = std::lower_bound(ids.begin(), ids.end(), event.id);
@@ -69,8 +84,8 @@ void write_descriptions(const RunDirectory& directory, const Scene& scene) {
 
 std::vector<DescribedTable> described_tables(const Scene& scene) {
     std::vector<DescribedTable> tables = {{"series", series_columns(scene).about()}};
-    for (const SideTable& table : side_tables(scene))
-        if (table.wanted) tables.push_back({table.name, table.columns});
+    for (const SideTable& side : side_tables(scene))
+        if (side.wanted) tables.push_back(side.table);
     return tables;
 }
 
@@ -82,39 +97,39 @@ RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::strin
       series_file_(SeriesFile::create(directory.file("series.csv"), series_columns(scene).about())),
       contact_columns_(contact_columns(scene)),
       lineage_columns_(lineage_columns(scene)) {
-    if (keeps_frames(scene)) {
-        const bool stress = scene.output.stress_per_rod;
-        journal_ = TrajectoryJournal::create(
-            directory.file("trajectory.journal"),
-            stress ? TrajectoryJournal::Content::rods_and_stress : TrajectoryJournal::Content::rods);
-        append_frame(simulation);
-    }
-    const auto tables = side_tables(scene);
-    for (std::size_t k = 0; k < tables.size(); ++k) {
-        if (!tables[k].wanted) continue;
-        side_files_[k] = SeriesFile::create(directory.file(tables[k].name + ".csv"), tables[k].columns);
-    }
-    write_descriptions(directory, scene);
+    open_others(simulation, {});
     write_checkpoint(simulation, sums);
 }
 
 RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::string resolved_scene,
-                   const Checkpoint& checkpoint)
+                   const Simulation& simulation, const FilePositions& positions)
     : directory_(directory),
       scene_(scene),
       resolved_scene_(std::move(resolved_scene)),
-      series_file_(resumed_series(directory, scene, checkpoint)),
+      series_file_(resumed_series(directory, scene, positions)),
       contact_columns_(contact_columns(scene)),
       lineage_columns_(lineage_columns(scene)) {
-    if (keeps_frames(scene))
-        journal_ = TrajectoryJournal::resume(directory.file("trajectory.journal"), checkpoint.trajectory_bytes,
-                                             checkpoint.trajectory_hash);
-    const auto tables = side_tables(scene);
-    for (std::size_t k = 0; k < tables.size(); ++k)
-        if (tables[k].wanted)
-            side_files_[k] = SeriesFile::resume(directory.file(tables[k].name + ".csv"), tables[k].columns,
-                                                checkpoint.*tables[k].bytes, checkpoint.*tables[k].hash);
-    write_descriptions(directory, scene);  // what was there may be damaged
+    open_others(simulation, positions);
+}
+
+/// Those that the run has go on, also if the scene no longer asks for them; those that it now asks for begin.
+void RunFiles::open_others(const Simulation& simulation, const FilePositions& positions) {
+    const std::string frames = directory_.file(trajectory_journal_name);
+    if (const auto found = positions.find(trajectory_journal_name); found != positions.end()) {
+        journal_ = TrajectoryJournal::resume(frames, found->second.bytes, found->second.hash);
+    } else if (keeps_frames(scene_)) {
+        journal_ = TrajectoryJournal::create(frames, journal_content(scene_));
+        append_first_frame(simulation);
+    }
+    const auto tables = side_tables(scene_);
+    for (std::size_t k = 0; k < tables.size(); ++k) {
+        const std::string path = directory_.file(tables[k].file());
+        if (const auto found = positions.find(tables[k].file()); found != positions.end())
+            side_files_[k] = SeriesFile::resume(path, tables[k].table.columns, found->second.bytes, found->second.hash);
+        else if (tables[k].wanted)
+            side_files_[k] = SeriesFile::create(path, tables[k].table.columns);
+    }
+    write_descriptions(directory_, scene_);  // what was there may be damaged
 }
 
 void RunFiles::append_row(const std::vector<double>& row) {
@@ -123,8 +138,17 @@ void RunFiles::append_row(const std::vector<double>& row) {
 
 void RunFiles::append_frame(const Simulation& simulation) {
     const Rods rods = in_order_of_ids(simulation.rods());
-    std::vector<Mat3> stress;
-    if (scene_.output.stress_per_rod) stress = stress_of_last_step(simulation, rods.id);
+    append_frame(simulation, rods,
+                 scene_.output.stress_per_rod ? stress_of_last_step(simulation, rods.id) : std::vector<Mat3>{});
+}
+
+/// No step leads to it.
+void RunFiles::append_first_frame(const Simulation& simulation) {
+    const Rods rods = in_order_of_ids(simulation.rods());
+    append_frame(simulation, rods, std::vector<Mat3>(scene_.output.stress_per_rod ? rods.size() : 0, unknown));
+}
+
+void RunFiles::append_frame(const Simulation& simulation, const Rods& rods, const std::vector<Mat3>& stress) {
     journal_->append(simulation.clock().step, simulation.clock().time, simulation.box(), rods, stress);
 }
 
@@ -146,20 +170,14 @@ void RunFiles::append(std::size_t table, const TableRows& rows) {
 
 void RunFiles::write_checkpoint(const Simulation& simulation, const StepSums& sums) {
     Checkpoint checkpoint = checkpoint_of(simulation, sums, resolved_scene_);
-    series_file_.sync();
-    checkpoint.series_bytes = series_file_.bytes();
-    checkpoint.series_hash = series_file_.hash();
-    if (journal_) {
-        journal_->sync();
-        checkpoint.trajectory_bytes = journal_->bytes();
-        checkpoint.trajectory_hash = journal_->hash();
-    }
+    const auto keep = [&](const std::string& name, auto& file) {
+        file.sync();
+        checkpoint.files[name] = {file.bytes(), file.hash()};
+    };
+    keep(series_name, series_file_);
+    if (journal_) keep(trajectory_journal_name, *journal_);
     const auto tables = side_tables(scene_);
-    for (std::size_t k = 0; k < tables.size(); ++k) {
-        if (!side_files_[k]) continue;
-        side_files_[k]->sync();
-        checkpoint.*tables[k].bytes = side_files_[k]->bytes();
-        checkpoint.*tables[k].hash = side_files_[k]->hash();
-    }
+    for (std::size_t k = 0; k < tables.size(); ++k)
+        if (side_files_[k]) keep(tables[k].file(), *side_files_[k]);
     jostle::write_checkpoint(directory_.path(), checkpoint);
 }

@@ -31,9 +31,10 @@ public:
     /// Files of a new run; `simulation` stands at its beginning.
     RunFiles(const jostle::RunDirectory& directory, const jostle::Scene& scene, std::string resolved_scene,
              const jostle::Simulation& simulation, const jostle::StepSums& sums);
-    /// Files of a run that goes on from a checkpoint. Nothing is cut before all files were found to be sound.
+    /// Files of a run that goes on from a checkpoint, where `simulation` stands. Nothing is cut before all files were
+    /// found to be sound.
     RunFiles(const jostle::RunDirectory& directory, const jostle::Scene& scene, std::string resolved_scene,
-             const jostle::Checkpoint& checkpoint);
+             const jostle::Simulation& simulation, const jostle::FilePositions& positions);
 
     void append_row(const std::vector<double>& row);
     void append_frame(const jostle::Simulation& simulation);
@@ -49,6 +50,10 @@ public:
     bool has_trajectory() const { return journal_.has_value(); }
 
 private:
+    void open_others(const jostle::Simulation& simulation, const jostle::FilePositions& positions);
+    void append_first_frame(const jostle::Simulation& simulation);
+    void append_frame(const jostle::Simulation& simulation, const jostle::Rods& rods,
+                      const std::vector<jostle::Mat3>& stress);
     void append(std::size_t table, const jostle::TableRows& rows);
 
     const jostle::RunDirectory& directory_;

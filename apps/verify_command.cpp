@@ -25,16 +25,13 @@ std::uint64_t count_frames(const std::string& path) {
 
 /// The files that the checkpoint stands for, up to where they had come.
 void verify_growing_files(const std::string& folder, const Checkpoint& checkpoint) {
-    require_same_bytes(folder + "/series.csv", checkpoint.series_bytes, checkpoint.series_hash);
-    if (checkpoint.trajectory_bytes > 0)
-        TrajectoryJournal::require_frames(folder + "/trajectory.journal", checkpoint.trajectory_bytes,
-                                          checkpoint.trajectory_hash);
-    if (checkpoint.contacts_bytes > 0)
-        require_same_bytes(folder + "/contacts.csv", checkpoint.contacts_bytes, checkpoint.contacts_hash);
-    if (checkpoint.field_bytes > 0)
-        require_same_bytes(folder + "/field.csv", checkpoint.field_bytes, checkpoint.field_hash);
-    if (checkpoint.lineage_bytes > 0)
-        require_same_bytes(folder + "/lineage.csv", checkpoint.lineage_bytes, checkpoint.lineage_hash);
+    for (const auto& [name, position] : checkpoint.files) {
+        const std::string path = folder + "/" + name;
+        if (name == trajectory_journal_name)
+            TrajectoryJournal::require_frames(path, position.bytes, position.hash);
+        else
+            require_same_bytes(path, position.bytes, position.hash);
+    }
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <cstdio>
 
 #include "jostle/disk/durable_file.hpp"
+#include "jostle/scene/key_values.hpp"
+#include "jostle/scene_file/same_scene.hpp"
 #include "jostle/scene_file/scene_reader.hpp"
 #include "jostle/scene_file/scene_writer.hpp"
 #include "parsed_json.hpp"
@@ -23,12 +25,12 @@ void print_sound(const std::string& name) {
 /// Returns the resolved form of scene.toml, which may have another end than the checkpoint: a run goes on with it.
 std::string verify_scene(const std::string& folder, const Checkpoint& checkpoint) {
     const std::string path = folder + "/scene.toml";
-    const std::string resolved = to_toml(parse_scene(read_scene_text(path), path));
-    if (const std::string difference = scene_difference(checkpoint.scene, resolved); !difference.empty())
+    const Scene scene = parse_scene(read_scene_text(path), path);
+    if (const std::string difference = physics_difference(scene_of(checkpoint, folder), scene); !difference.empty())
         throw refused_file(path, "is not the scene of the checkpoint: " + difference,
                            "Run the same command again, or put resolved.toml in its place");
     print_sound("scene.toml");
-    return resolved;
+    return to_toml(scene);
 }
 
 void verify_resolved(const std::string& folder, const Checkpoint& checkpoint, const std::string& resolved_now) {
@@ -41,7 +43,7 @@ void verify_resolved(const std::string& folder, const Checkpoint& checkpoint, co
 }
 
 void verify_descriptions(const std::string& folder, const Checkpoint& checkpoint) {
-    for (const DescribedTable& table : described_tables(parse_scene(checkpoint.scene, folder + "/checkpoint"))) {
+    for (const DescribedTable& table : described_tables(scene_of(checkpoint, folder))) {
         const std::string name = table.name + ".json", path = folder + "/" + name;
         if (read_file(path) != series_description(table.name, table.columns))
             throw refused_file(path, "does not describe the columns as this version of jostle does", written_anew);

@@ -9,7 +9,7 @@
 #include "jostle/measurement/side_tables.hpp"
 #include "jostle/scene/validate_scene.hpp"
 #include "jostle/scene_file/rods_of_scene.hpp"
-#include "jostle/scene_file/scene_reader.hpp"
+#include "jostle/scene_file/same_scene.hpp"
 #include "jostle/scene_file/scene_writer.hpp"
 #include "jostle/setup/assemble.hpp"
 #include "jostle/setup/step_failure.hpp"
@@ -54,7 +54,8 @@ SimulationInPython::SimulationInPython(SceneInPython scene, Checkpoint checkpoin
     : scene_(std::move(scene)),
       simulation_(assemble(scene_.scene, checkpoint.box, std::move(checkpoint.rods), {checkpoint.step, checkpoint.time},
                            std::move(checkpoint.springs), std::move(checkpoint.last_forces))),
-      measurement_(scene_.scene, simulation_, StepSums::from_numbers(checkpoint.accumulators, scene_.scene)) {}
+      measurement_(scene_.scene, simulation_,
+                   StepSums::from_named(std::move(checkpoint.sums), scene_.scene, simulation_.box())) {}
 
 void SimulationInPython::step() {
     require_between_steps();
@@ -241,7 +242,7 @@ std::unique_ptr<SimulationInPython> resumed(const std::string& folder) {
                           .problem = "there is none to go on from",
                           .suggestion = "Give the folder of a run, or one that Simulation.save wrote",
                           .place = {folder}});
-    SceneInPython scene{parse_scene(checkpoint->scene, folder + "/checkpoint"), {}};
+    SceneInPython scene{scene_of(*checkpoint, folder), {}};
     return std::make_unique<SimulationInPython>(std::move(scene), std::move(*checkpoint));
 }
 

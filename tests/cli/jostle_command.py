@@ -159,11 +159,24 @@ def mean(folder, name):
     return sum(values) / len(values)
 
 
+CHECKPOINT_HEADER = 24  # bytes of a checkpoint before its fields; 8 of a checksum stand behind them
+
+
+def fields_of_checkpoint(content):
+    """{name: where its bytes begin} of the named fields: length of the name, the name, number of bytes, these."""
+    fields, place = {}, CHECKPOINT_HEADER
+    while place < len(content) - 8:
+        end = place + 8 + int.from_bytes(content[place:place + 8], "little")
+        fields[content[place + 8:end].decode()] = end + 8
+        place = end + 8 + int.from_bytes(content[end:end + 8], "little")
+    assert place == len(content) - 8
+    return fields
+
+
 def checkpoint_step(folder):
-    """The step of the checkpoint, read by its format: 24 bytes of header, the scene's length (u64), the scene, u64."""
     content = (folder / "checkpoint").read_bytes()
-    length = int.from_bytes(content[24:32], "little")
-    return int.from_bytes(content[32 + length:40 + length], "little")
+    place = fields_of_checkpoint(content)["step"]
+    return int.from_bytes(content[place:place + 8], "little")
 
 
 def snapshot(path):

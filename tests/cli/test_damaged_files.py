@@ -9,12 +9,11 @@ import struct
 
 import pytest
 
-from jostle_command import (DONE, RODS, changed, checkpoint_step, command, datasets, finish, flip_bit, random_numbers,
+from jostle_command import (CHECKPOINT_HEADER, DONE, RODS, changed, checkpoint_step, command, datasets, fields_of_checkpoint, finish, flip_bit, random_numbers,
                             require_one_line, require_same_results, run, snapshot, write_scene)
 
 FLIPS = 12
 SEAL = 24  # bytes at the end of trajectory.h5: mark, length, checksum
-HEADER = 24  # bytes of a checkpoint before its payload
 
 
 def refuse(folder, *parts, verify=True):
@@ -43,18 +42,21 @@ def sealed(payload_and_header):
     return content + library.XXH3_64bits(content, len(content)).to_bytes(8, "little")
 
 
-@pytest.mark.parametrize("table, key, value", [("fluid", "viscosity", 2.0), ("rods", "count", 51),
-                                               ("time", "step", 0.01), ("solver", "tolerance", 2e-5)])
-def test_checkpoint_of_another_scene(torn_copy, table, key, value):
+@pytest.mark.parametrize("table, key, value, said", [
+    ("fluid", "viscosity", 2.0, "was 1 and is 2"), ("rods", "count", 51, "was 50 and is 51"),
+    ("time", "step", 0.01, "was 0.02 and is 0.01"), ("solver", "tolerance", 2e-5, "was 1e-05 and is 2e-05"),
+    ("output", "series_every", 10, "was 5 and is 10"), ("output", "stress_conventions", True, "was false and is true"),
+    ("output", "stress_per_rod", True, "was false and is true")])
+def test_checkpoint_of_another_scene(torn_copy, table, key, value, said):
     scene = changed(RODS, **{"seed": RODS["seed"], table: {key: value}})
     write_scene(torn_copy, scene)
-    refuse(torn_copy, "run/checkpoint: the checkpoint is of another scene: line", "of the resolved scene was",
+    refuse(torn_copy, f"run/checkpoint: the checkpoint is of another scene: {table}.{key} {said}. Restore the scene, "
            "give another folder with --out, or start again with --fresh", verify=False)
 
 
-def test_the_line_that_differs_is_named(finished_copy):
-    write_scene(finished_copy, changed(RODS, seed=8))
-    refuse(finished_copy, 'line 2 of the resolved scene was "seed = 7" and is "seed = 8"', verify=False)
+def test_all_keys_that_differ_are_counted(finished_copy):
+    write_scene(finished_copy, changed(RODS, seed=8, rods={"length": 3.0}, title="another"))
+    refuse(finished_copy, "of another scene: seed was 7 and is 8, and 1 other key differs.", verify=False)
 
 
 def test_scene_written_in_another_way_is_the_same(finished_copy, finished):
@@ -74,35 +76,56 @@ def test_checkpoint_of_another_version(torn_copy):
     refuse(torn_copy, f"run/checkpoint: the checkpoint has format version {other}, this jostle reads version {this}")
 
 
-def place_in_checkpoint(content, what, row=0):
-    """Where a number stands, by the format: header, scene, step, time, edges, 3 flags, N, arrays."""
-    text = int.from_bytes(content[HEADER:HEADER + 8], "little")
-    step = HEADER + 8 + text
-    count_at = step + 16 + 24 + 3
-    count = int.from_bytes(content[count_at:count_at + 8], "little")
-    assert count == RODS["rods"]["count"]
-    places, place = {"step": step, "time": step + 8, "edge": step + 16, "count": count_at}, count_at + 8
-    for name, width in (("centre", 24), ("axis", 24), ("length", 8), ("diameter", 8), ("id", 8)):
-        places[name] = place + width * row
-        place += width * count
-    return places[what]
+def forge(path, change):
+    """Changes a checkpoint, and makes its checksum anew."""
+    content = bytearray(path.read_bytes())
+    change(content, fields_of_checkpoint(content))
+    path.write_bytes(sealed(content[:-8]))
 
 
-@pytest.mark.parametrize("what, value", [("time", math.nan), ("edge", math.nan), ("edge", 1e300), ("edge", -1.0), ("edge", 0.0),
-                                         ("centre", math.nan), ("centre", 1e30), ("axis", 1e300), ("length", math.inf),
-                                         ("length", -2.0), ("diameter", 0.0), ("count", 2**40), ("count", 2**63), ("count", 49),
-                                         ("id", 50), ("id", 2**63), ("step", 2**64 - 1)])
-def test_forged_checkpoint(torn_copy, what, value):
+@pytest.mark.parametrize("field, value", [("time", math.nan), ("box.edges", math.nan), ("box.edges", 1e300), ("box.edges", -1.0),
+                                          ("box.edges", 0.0), ("rods.centre", math.nan), ("rods.centre", 1e30),
+                                          ("rods.axis", 1e300), ("rods.length", math.inf), ("rods.length", -2.0),
+                                          ("rods.diameter", 0.0), ("rods.id", 50), ("rods.id", 2**63), ("step", 2**64 - 1)])
+def test_forged_checkpoint(torn_copy, field, value):
     """Absurd numbers under a right checksum: one clear refusal, not a crash."""
-    path = torn_copy / "run/checkpoint"
-    content = bytearray(path.read_bytes()[:-8])
-    place = place_in_checkpoint(content, what)
-    content[place:place + 8] = struct.pack("<d" if isinstance(value, float) else "<Q", value)
-    path.write_bytes(sealed(content))
+    def change(content, fields):
+        content[fields[field]:fields[field] + 8] = struct.pack("<d" if isinstance(value, float) else "<Q", value)
+
+    forge(torn_copy / "run/checkpoint", change)
     refuse(torn_copy, "run/checkpoint: the checkpoint ", "again with --fresh")
 
 
-@pytest.mark.parametrize("left", [0, 7, HEADER, 100, 0.5, -9, -1])
+@pytest.mark.parametrize("size", [2**40, 2**63, 2**64 - 1, 8, 0])
+def test_forged_length(torn_copy, size):
+    """An array that claims more bytes than there are, or fewer than the other arrays have."""
+    def change(content, fields):
+        content[fields["rods.length"] - 8:fields["rods.length"]] = struct.pack("<Q", size)
+
+    forge(torn_copy / "run/checkpoint", change)
+    refuse(torn_copy, "run/checkpoint: the checkpoint is damaged", "again with --fresh")
+
+
+@pytest.mark.parametrize("field", ["time", "rods.axis", "springs.s_1", "scene"])
+def test_renamed_field(torn_copy, field):
+    def change(content, fields):
+        place = fields[field] - 8 - len(field)
+        content[place:place + len(field)] = b"x" * len(field)
+
+    forge(torn_copy / "run/checkpoint", change)
+    refuse(torn_copy, f'run/checkpoint: the checkpoint is damaged: it has no field "{field}"', "again with --fresh")
+
+
+def test_sum_that_is_missing(torn_copy):
+    def change(content, fields):
+        place = fields["sums.residual"] - 8 - len("residual")
+        content[place:place + len("residual")] = b"x" * len("residual")
+
+    forge(torn_copy / "run/checkpoint", change)
+    refuse(torn_copy, 'checkpoint: it lacks the sum "residual" of a run of this scene', verify=False)
+
+
+@pytest.mark.parametrize("left", [0, 7, CHECKPOINT_HEADER, 100, 0.5, -9, -1])
 def test_truncated_checkpoint(torn_copy, left):
     path = torn_copy / "run/checkpoint"
     content = path.read_bytes()

@@ -32,8 +32,9 @@ public:
 
     void put_text(std::string_view text) {
         put(static_cast<std::uint64_t>(text.size()));
-        bytes_.append(text);
+        put_bytes(text);
     }
+    void put_bytes(std::string_view bytes) { bytes_.append(bytes); }
 
     const std::string& bytes() const { return bytes_; }
     void clear() { bytes_.clear(); }
@@ -69,7 +70,7 @@ public:
 
     bool empty() const { return rest_.empty(); }
 
-private:
+    /// They stay where they are.
     std::string_view take_bytes(std::uint64_t count) {
         if (count > rest_.size()) throw std::out_of_range("a value is longer than the bytes left");
         const std::string_view bytes = rest_.substr(0, count);
@@ -77,6 +78,7 @@ private:
         return bytes;
     }
 
+private:
     std::string_view rest_;
 };
 

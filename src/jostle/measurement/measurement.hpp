@@ -32,7 +32,7 @@ class Measurement {
 public:
     /// Of a run that begins; `simulation` stands at its beginning.
     Measurement(const Scene& scene, const Simulation& simulation);
-    /// Of a run that goes on, from the sums of its checkpoint (`StepSums::from_numbers`) and the rows that it has.
+    /// Of a run that goes on, from the sums of its checkpoint (`StepSums::from_named`) and the rows that it has.
     /// Without these, it knows of the rows to come only.
     Measurement(const Scene& scene, const Simulation& simulation, StepSums sums, SeriesTable earlier_rows = {});
 

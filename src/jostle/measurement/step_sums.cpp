@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "jostle/error/input_error.hpp"
@@ -12,6 +13,35 @@
 #include "jostle/setup/assemble.hpp"
 
 namespace jostle {
+
+namespace {
+
+/// The sums of `StepSums` that are numbers, each with its name in checkpoints.
+template <class AnySums, class Visitor>
+void for_each_sum(AnySums& sums, Visitor&& visit) {
+    visit("steps", sums.steps);
+    visit("rods", sums.rods);
+    visit("collision_virial", sums.collision_virial);
+    visit("spring_virial", sums.spring_virial);
+    visit("centre_of_mass_virial", sums.centre_of_mass_virial);
+    visit("centre_line_virial", sums.centre_line_virial);
+    visit("contacts", sums.contacts);
+    visit("active_contacts", sums.active_contacts);
+    visit("iterations", sums.iterations);
+    visit("residual", sums.residual);
+    visit("max_overlap", sums.max_overlap);
+    visit("run_max_overlap", sums.run_max_overlap);
+}
+
+template <class Sum>
+auto numbers_of(Sum& sum) {
+    if constexpr (std::is_same_v<std::remove_const_t<Sum>, Mat3>)
+        return std::span(sum.m);
+    else
+        return std::span(&sum, 1);
+}
+
+}  // namespace
 
 void StepSums::add(const StepReport& report) {
     steps += 1.0;
@@ -55,55 +85,33 @@ void StepSums::start_row() {
     *this = std::move(fresh);
 }
 
-std::vector<double> StepSums::to_numbers() const {
-    std::vector<double> numbers = {steps,    contacts,    active_contacts, iterations,
-                                   residual, max_overlap, run_max_overlap, rods};
-    for (const Mat3* sum : {&collision_virial, &spring_virial, &centre_of_mass_virial, &centre_line_virial})
-        numbers.insert(numbers.end(), sum->m.begin(), sum->m.end());
-    const auto append = [&](const std::vector<double>& more) {  // 0 numbers where there is no such thing
-        numbers.push_back(static_cast<double>(more.size()));
-        numbers.insert(numbers.end(), more.begin(), more.end());
-    };
-    append(active_stress ? active_stress->to_numbers() : std::vector<double>{});
-    append(field ? field->to_numbers() : std::vector<double>{});
+NamedNumbers StepSums::to_named() const {
+    NamedNumbers numbers;
+    for_each_sum(*this, [&](const char* name, const auto& sum) {
+        const std::span<const double> values = numbers_of(sum);
+        numbers[name].assign(values.begin(), values.end());
+    });
+    if (active_stress) add_under("active_stress", numbers, active_stress->to_named());
+    if (field) add_under("field", numbers, field->to_named());
     return numbers;
 }
 
-StepSums StepSums::from_numbers(const std::vector<double>& numbers, const Scene& scene) {
-    constexpr std::size_t sums_count = 8 + 4 * 9;
-    const auto require = [](bool sound) {
-        if (!sound)
-            throw InputError({.key = "checkpoint",
-                              .problem = "it holds other sums than a run of this scene by this version of jostle",
-                              .suggestion = "Start anew with --fresh"});
-    };
-    require(numbers.size() >= sums_count);
+StepSums StepSums::from_named(NamedNumbers numbers, const Scene& scene, const Box& box) {
     StepSums sums;
-    sums.steps = numbers[0];
-    sums.contacts = numbers[1];
-    sums.active_contacts = numbers[2];
-    sums.iterations = numbers[3];
-    sums.residual = numbers[4];
-    sums.max_overlap = numbers[5];
-    sums.run_max_overlap = numbers[6];
-    sums.rods = numbers[7];
-    auto from = numbers.begin() + 8;
-    for (Mat3* sum :
-         {&sums.collision_virial, &sums.spring_virial, &sums.centre_of_mass_virial, &sums.centre_line_virial}) {
-        std::copy(from, from + 9, sum->m.begin());
-        from += 9;
-    }
-    std::span<const double> rest = std::span(numbers).subspan(sums_count);
-    const auto take = [&] {
-        require(!rest.empty() && rest[0] >= 0.0 && rest[0] < static_cast<double>(rest.size()));
-        const std::span<const double> taken = rest.subspan(1, static_cast<std::size_t>(rest[0]));
-        rest = rest.subspan(1 + taken.size());
-        return taken;
-    };
-    if (const auto positions = take(); !positions.empty()) sums.active_stress = ActiveStress::from_numbers(positions);
-    if (const auto field = take(); !field.empty()) sums.field = StressField::from_numbers(field);
-    require(rest.empty() && sums.active_stress.has_value() == (scene.motion.self_propulsion != 0.0) &&
-            sums.field.has_value() == (scene.output.field_every > 0));
+    for_each_sum(sums, [&](const char* name, auto& sum) {
+        const std::span<double> values = numbers_of(sum);
+        const auto found = numbers.find(name);
+        if (found == numbers.end() || found->second.size() != values.size())
+            throw InputError({.key = "checkpoint",
+                              .problem = std::string("it lacks the sum \"") + name + "\" of a run of this scene",
+                              .suggestion = "Start anew with --fresh"});
+        std::copy(found->second.begin(), found->second.end(), values.begin());
+    });
+    if (scene.motion.self_propulsion != 0.0)
+        sums.active_stress = ActiveStress::from_named(taken_under("active_stress", numbers));
+    if (scene.output.field_every == 0) return sums;
+    NamedNumbers field_so_far = taken_under("field", numbers);
+    sums.field = field_so_far.empty() ? make_field(scene, box) : StressField::from_named(std::move(field_so_far));
     return sums;
 }
 
@@ -116,7 +124,7 @@ Checkpoint checkpoint_of(const Simulation& simulation, const StepSums& sums, std
     checkpoint.rods = in_order_of_ids(simulation.rods());
     checkpoint.springs.assign(simulation.springs().begin(), simulation.springs().end());
     checkpoint.last_forces = simulation.last_forces();
-    checkpoint.accumulators = sums.to_numbers();
+    checkpoint.sums = sums.to_named();
     return checkpoint;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "jostle/math/named_numbers.hpp"
 #include "jostle/run_files/checkpoint.hpp"
 #include "jostle/scene/scene.hpp"
 #include "jostle/simulation/simulation.hpp"
@@ -37,9 +38,11 @@ struct StepSums {
     void look_at_swimmers(const Scene& scene, const Simulation& simulation);
     void start_row();
 
-    std::vector<double> to_numbers() const;
-    /// Of a run of `scene`. Errors: InputError if they are not those that such a run has.
-    static StepSums from_numbers(const std::vector<double>& numbers, const Scene& scene);
+    /// For checkpoints.
+    NamedNumbers to_named() const;
+    /// Of a run of `scene` in `box`. A stress field that the scene asks for, and that is not among them, begins here.
+    /// Errors: InputError if others are missing, or not whole.
+    static StepSums from_named(NamedNumbers numbers, const Scene& scene, const Box& box);
 
 private:
     void add(const StepReport& report);

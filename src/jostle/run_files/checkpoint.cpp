@@ -1,9 +1,9 @@
 #include "jostle/run_files/checkpoint.hpp"
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <numeric>
-#include <sstream>
 #include <stdexcept>
 #include <string_view>
 #include <unordered_map>
@@ -11,180 +11,154 @@
 #include "jostle/disk/byte_buffer.hpp"
 #include "jostle/disk/checksum.hpp"
 #include "jostle/disk/durable_file.hpp"
+#include "jostle/disk/named_fields.hpp"
 
 namespace jostle {
 namespace {
 
 // The first byte is no text and the last is a newline, so that a file mangled as text no longer matches.
 constexpr std::string_view magic = "\x89JOSTLE\n";
-constexpr std::uint32_t format_version = 8;
+constexpr std::uint32_t format_version = 9;
 constexpr std::size_t header_bytes = 24;
 constexpr std::size_t checksum_bytes = 8;
 constexpr const char* start_again = "Start the run again with --fresh";
 
-/// The bytes of a checkpoint in pieces: small values are copied, arrays stay where they are, for there may be ten
-/// million rods.
-class Payload {
-public:
-    template <class Value>
-    void put(const Value& value) {
-        parts_.back().copied.put(value);
-    }
-    void put_text(std::string_view text) { parts_.back().copied.put_text(text); }
-    template <class Value>
-    void put_elements(const std::vector<Value>& values) {
-        static_assert(std::is_trivially_copyable_v<Value>);
-        parts_.back().array = {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)};
-        parts_.emplace_back();
-    }
-
-    /// As long as arrays and this are there.
-    std::vector<std::string_view> pieces() const {
-        std::vector<std::string_view> pieces;
-        for (const Part& part : parts_) pieces.insert(pieces.end(), {part.copied.bytes(), part.array});
-        return pieces;
-    }
-
-private:
-    struct Part {
-        ByteWriter copied;
-        std::string_view array;  ///< after it
-    };
-    std::vector<Part> parts_{1};
-};
-
-void put_rods(Payload& writer, const Rods& rods) {
-    writer.put(static_cast<std::uint64_t>(rods.size()));
-    writer.put_elements(rods.centre);
-    writer.put_elements(rods.axis);
-    writer.put_elements(rods.length);
-    writer.put_elements(rods.diameter);
-    writer.put_elements(rods.id);
-    writer.put_elements(rods.image);
-    writer.put(static_cast<std::uint64_t>(rods.cycle.size()));
-    writer.put_elements(rods.cycle);
-    writer.put(static_cast<std::int32_t>(rods.founder_bits));
-    writer.put(static_cast<std::uint64_t>(rods.speed.size()));
-    writer.put_elements(rods.speed);
+void put_rods(FieldWriter& writer, const Rods& rods) {
+    writer.put_array("rods.centre", rods.centre);
+    writer.put_array("rods.axis", rods.axis);
+    writer.put_array("rods.length", rods.length);
+    writer.put_array("rods.diameter", rods.diameter);
+    writer.put_array("rods.id", rods.id);
+    writer.put_array("rods.image", rods.image);
+    writer.put_array("rods.speed", rods.speed);
+    writer.put_column("rods.cycle.growth_rate", rods.cycle, [](const CellCycle& cycle) { return cycle.growth_rate; });
+    writer.put_column("rods.cycle.division_at", rods.cycle, [](const CellCycle& cycle) { return cycle.division_at; });
+    writer.put_column("rods.cycle.birth_step", rods.cycle, [](const CellCycle& cycle) { return cycle.birth_step; });
+    writer.put_column("rods.cycle.divisions", rods.cycle, [](const CellCycle& cycle) { return cycle.divisions; });
+    writer.put_column("rods.cycle.share", rods.cycle, [](const CellCycle& cycle) { return cycle.share; });
+    writer.put("rods.founder_bits", static_cast<std::int32_t>(rods.founder_bits));
 }
 
-Rods take_rods(ByteReader& reader) {
+Rods take_rods(FieldReader& reader) {
     Rods rods;
-    const auto count = reader.take<std::uint64_t>();
-    reader.take_elements(count, rods.centre);
-    reader.take_elements(count, rods.axis);
-    reader.take_elements(count, rods.length);
-    reader.take_elements(count, rods.diameter);
-    reader.take_elements(count, rods.id);
-    reader.take_elements(count, rods.image);
-    const auto cycles = reader.take<std::uint64_t>();
-    if (cycles != 0 && cycles != count) throw std::out_of_range("cell cycles and rods differ in number");
-    reader.take_elements(cycles, rods.cycle);
-    rods.founder_bits = reader.take<std::int32_t>();
+    rods.centre = reader.take_array<Vec3>("rods.centre");
+    rods.axis = reader.take_array<Vec3>("rods.axis");
+    rods.length = reader.take_array<double>("rods.length");
+    rods.diameter = reader.take_array<double>("rods.diameter");
+    rods.id = reader.take_array<std::uint64_t>("rods.id");
+    rods.image = reader.take_array<Image>("rods.image");
+    rods.speed = reader.take_array<double>("rods.speed");
+    std::vector<CellCycle>& cycle = rods.cycle;
+    cycle.resize(reader.length<double>("rods.cycle.growth_rate"));
+    reader.take_column<double>("rods.cycle.growth_rate", cycle,
+                               [](CellCycle& of, double value) { of.growth_rate = value; });
+    reader.take_column<double>("rods.cycle.division_at", cycle,
+                               [](CellCycle& of, double value) { of.division_at = value; });
+    reader.take_column<std::uint64_t>("rods.cycle.birth_step", cycle,
+                                      [](CellCycle& of, std::uint64_t value) { of.birth_step = value; });
+    reader.take_column<std::uint64_t>("rods.cycle.divisions", cycle,
+                                      [](CellCycle& of, std::uint64_t value) { of.divisions = value; });
+    reader.take_column<double>("rods.cycle.share", cycle, [](CellCycle& of, double value) { of.share = value; });
+    rods.founder_bits = reader.take<std::int32_t>("rods.founder_bits");
+    const std::size_t count = rods.id.size();
+    for (const std::size_t other :
+         {rods.centre.size(), rods.axis.size(), rods.length.size(), rods.diameter.size(), rods.image.size()})
+        if (other != count) throw std::out_of_range("its arrays of rods differ in length");
+    for (const std::size_t other : {rods.speed.size(), cycle.size()})
+        if (other != 0 && other != count) throw std::out_of_range("its arrays of rods differ in length");
     if (rods.founder_bits < 0 || rods.founder_bits > 53) throw std::out_of_range("ids of cells out of range");
-    const auto speeds = reader.take<std::uint64_t>();
-    if (speeds != 0 && speeds != count) throw std::out_of_range("speeds and rods differ in number");
-    reader.take_elements(speeds, rods.speed);
     return rods;
 }
 
-void put_springs(Payload& writer, const std::vector<Spring>& springs) {
-    writer.put(static_cast<std::uint64_t>(springs.size()));
-    for (const Spring& spring : springs) {  // one by one: what pads a Spring in memory is not defined
-        writer.put(spring.rod_1);
-        writer.put(spring.rod_2);
-        writer.put(std::array{spring.s_1, spring.s_2, spring.rest_length, spring.stiffness});
-        writer.put(spring.image);
-    }
+void put_springs(FieldWriter& writer, const std::vector<Spring>& springs) {
+    writer.put_column("springs.rod_1", springs, [](const Spring& spring) { return spring.rod_1; });
+    writer.put_column("springs.rod_2", springs, [](const Spring& spring) { return spring.rod_2; });
+    writer.put_column("springs.s_1", springs, [](const Spring& spring) { return spring.s_1; });
+    writer.put_column("springs.s_2", springs, [](const Spring& spring) { return spring.s_2; });
+    writer.put_column("springs.rest_length", springs, [](const Spring& spring) { return spring.rest_length; });
+    writer.put_column("springs.stiffness", springs, [](const Spring& spring) { return spring.stiffness; });
+    writer.put_column("springs.image", springs, [](const Spring& spring) { return spring.image; });
 }
 
-std::vector<Spring> take_springs(ByteReader& reader) {
-    std::vector<Spring> springs;
-    for (auto left = reader.take<std::uint64_t>(); left > 0; --left) {
-        const auto rod_1 = reader.take<std::uint64_t>(), rod_2 = reader.take<std::uint64_t>();
-        const auto [s_1, s_2, rest_length, stiffness] = reader.take<std::array<double, 4>>();
-        springs.push_back({rod_1, rod_2, s_1, s_2, rest_length, stiffness, reader.take<Image>()});
-    }
+std::vector<Spring> take_springs(FieldReader& reader) {
+    std::vector<Spring> springs(reader.length<std::uint64_t>("springs.rod_1"));
+    reader.take_column<std::uint64_t>("springs.rod_1", springs,
+                                      [](Spring& of, std::uint64_t value) { of.rod_1 = value; });
+    reader.take_column<std::uint64_t>("springs.rod_2", springs,
+                                      [](Spring& of, std::uint64_t value) { of.rod_2 = value; });
+    reader.take_column<double>("springs.s_1", springs, [](Spring& of, double value) { of.s_1 = value; });
+    reader.take_column<double>("springs.s_2", springs, [](Spring& of, double value) { of.s_2 = value; });
+    reader.take_column<double>("springs.rest_length", springs,
+                               [](Spring& of, double value) { of.rest_length = value; });
+    reader.take_column<double>("springs.stiffness", springs, [](Spring& of, double value) { of.stiffness = value; });
+    reader.take_column<Image>("springs.image", springs, [](Spring& of, const Image& value) { of.image = value; });
     return springs;
 }
 
-void put_forces(Payload& writer, const std::vector<LastForce>& forces) {
-    writer.put(static_cast<std::uint64_t>(forces.size()));
-    for (const LastForce& force : forces) {
-        writer.put(force.i);
-        writer.put(force.j);
-        writer.put(static_cast<std::uint8_t>(force.feature));
-        writer.put(static_cast<std::uint8_t>(force.upper));
-        writer.put(force.gamma);
-    }
+void put_forces(FieldWriter& writer, const std::vector<LastForce>& forces) {
+    writer.put_column("forces.i", forces, [](const LastForce& force) { return force.i; });
+    writer.put_column("forces.j", forces, [](const LastForce& force) { return force.j; });
+    writer.put_column("forces.feature", forces,
+                      [](const LastForce& force) { return static_cast<std::uint8_t>(force.feature); });
+    writer.put_column("forces.upper", forces,
+                      [](const LastForce& force) { return static_cast<std::uint8_t>(force.upper); });
+    writer.put_column("forces.gamma", forces, [](const LastForce& force) { return force.gamma; });
 }
 
-std::vector<LastForce> take_forces(ByteReader& reader) {
-    std::vector<LastForce> forces;
-    for (auto left = reader.take<std::uint64_t>(); left > 0; --left) {
-        LastForce force;
-        force.i = reader.take<std::uint64_t>();
-        force.j = reader.take<std::uint64_t>();
-        const auto feature = reader.take<std::uint8_t>();
-        force.upper = reader.take<std::uint8_t>() != 0;
-        force.gamma = reader.take<double>();
-        if (force.i > force.j || feature > static_cast<std::uint8_t>(ContactFeature::end_of_j))
-            throw std::out_of_range("a contact force that is none");
-        force.feature = static_cast<ContactFeature>(feature);
-        forces.push_back(force);
-    }
+std::vector<LastForce> take_forces(FieldReader& reader) {
+    std::vector<LastForce> forces(reader.length<std::uint64_t>("forces.i"));
+    reader.take_column<std::uint64_t>("forces.i", forces, [](LastForce& of, std::uint64_t value) { of.i = value; });
+    reader.take_column<std::uint64_t>("forces.j", forces, [](LastForce& of, std::uint64_t value) { of.j = value; });
+    reader.take_column<std::uint8_t>("forces.feature", forces, [](LastForce& of, std::uint8_t value) {
+        if (value > static_cast<std::uint8_t>(ContactFeature::end_of_j))
+            throw std::out_of_range("a contact force of no such contact");
+        of.feature = static_cast<ContactFeature>(value);
+    });
+    reader.take_column<std::uint8_t>("forces.upper", forces,
+                                     [](LastForce& of, std::uint8_t value) { of.upper = value != 0; });
+    reader.take_column<double>("forces.gamma", forces, [](LastForce& of, double value) { of.gamma = value; });
+    for (const LastForce& force : forces)
+        if (force.i > force.j) throw std::out_of_range("a contact force that is none");
     return forces;
 }
 
-Payload payload_of(const Checkpoint& checkpoint) {
-    Payload writer;
-    writer.put_text(checkpoint.scene);
-    writer.put(checkpoint.step);
-    writer.put(checkpoint.time);
-    writer.put(checkpoint.box.edges);
-    for (const bool periodic : checkpoint.box.periodic) writer.put(static_cast<std::uint8_t>(periodic));
+FieldWriter fields_of(const Checkpoint& checkpoint) {
+    FieldWriter writer;
+    writer.put_text("scene", checkpoint.scene);
+    writer.put("step", checkpoint.step);
+    writer.put("time", checkpoint.time);
+    writer.put("box.edges", checkpoint.box.edges);
+    std::array<std::uint8_t, 3> periodic{};
+    std::copy(checkpoint.box.periodic.begin(), checkpoint.box.periodic.end(), periodic.begin());
+    writer.put("box.periodic", periodic);
     put_rods(writer, checkpoint.rods);
     put_springs(writer, checkpoint.springs);
     put_forces(writer, checkpoint.last_forces);
-    writer.put(static_cast<std::uint64_t>(checkpoint.accumulators.size()));
-    writer.put_elements(checkpoint.accumulators);
-    writer.put(checkpoint.series_bytes);
-    writer.put(checkpoint.series_hash);
-    writer.put(checkpoint.trajectory_bytes);
-    writer.put(checkpoint.trajectory_hash);
-    writer.put(checkpoint.contacts_bytes);
-    writer.put(checkpoint.contacts_hash);
-    writer.put(checkpoint.field_bytes);
-    writer.put(checkpoint.field_hash);
-    writer.put(checkpoint.lineage_bytes);
-    writer.put(checkpoint.lineage_hash);
+    for (const auto& [name, values] : checkpoint.sums) writer.put_array("sums." + name, values);
+    for (const auto& [name, position] : checkpoint.files)
+        writer.put("files." + name, std::array{position.bytes, position.hash});
     return writer;
 }
 
-Checkpoint from_payload(std::string_view payload) {
-    ByteReader reader(payload);
+Checkpoint from_fields(std::string_view payload) {
+    FieldReader reader(payload);
     Checkpoint checkpoint;
-    checkpoint.scene = reader.take_text();
-    checkpoint.step = reader.take<std::uint64_t>();
-    checkpoint.time = reader.take<double>();
-    checkpoint.box.edges = reader.take<Vec3>();
-    for (bool& periodic : checkpoint.box.periodic) periodic = reader.take<std::uint8_t>() != 0;
+    checkpoint.scene = reader.take_text("scene");
+    checkpoint.step = reader.take<std::uint64_t>("step");
+    checkpoint.time = reader.take<double>("time");
+    checkpoint.box.edges = reader.take<Vec3>("box.edges");
+    const auto periodic = reader.take<std::array<std::uint8_t, 3>>("box.periodic");
+    for (std::size_t k = 0; k < 3; ++k) checkpoint.box.periodic[k] = periodic[k] != 0;
     checkpoint.rods = take_rods(reader);
     checkpoint.springs = take_springs(reader);
     checkpoint.last_forces = take_forces(reader);
-    const auto accumulator_count = reader.take<std::uint64_t>();
-    reader.take_elements(accumulator_count, checkpoint.accumulators);
-    checkpoint.series_bytes = reader.take<std::uint64_t>();
-    checkpoint.series_hash = reader.take<std::uint64_t>();
-    checkpoint.trajectory_bytes = reader.take<std::uint64_t>();
-    checkpoint.trajectory_hash = reader.take<std::uint64_t>();
-    checkpoint.contacts_bytes = reader.take<std::uint64_t>();
-    checkpoint.contacts_hash = reader.take<std::uint64_t>();
-    checkpoint.field_bytes = reader.take<std::uint64_t>();
-    checkpoint.field_hash = reader.take<std::uint64_t>();
-    checkpoint.lineage_bytes = reader.take<std::uint64_t>();
-    checkpoint.lineage_hash = reader.take<std::uint64_t>();
-    if (!reader.empty()) throw std::out_of_range("bytes are left over");
+    for (const std::string& name : reader.names_after("sums."))
+        checkpoint.sums[name] = reader.take_array<double>("sums." + name);
+    for (const std::string& name : reader.names_after("files.")) {
+        const auto [bytes, hash] = reader.take<std::array<std::uint64_t, 2>>("files." + name);
+        checkpoint.files[name] = {bytes, hash};
+    }
+    reader.require_all_taken();
     return checkpoint;
 }
 
@@ -235,8 +209,8 @@ std::string way_out(const std::string& path, const std::string& previous) {
 }  // namespace
 
 void write_checkpoint(const std::string& folder, const Checkpoint& checkpoint) {
-    const Payload payload = payload_of(checkpoint);
-    std::vector<std::string_view> pieces = payload.pieces();
+    const FieldWriter fields = fields_of(checkpoint);
+    std::vector<std::string_view> pieces = fields.pieces();
     ByteWriter numbers;
     numbers.put(format_version);
     numbers.put(std::uint32_t{0});
@@ -267,7 +241,7 @@ Checkpoint read_checkpoint(const std::string& path) {
     const std::string_view payload = verified_payload(path, file);
     Checkpoint checkpoint;
     try {
-        checkpoint = from_payload(payload);
+        checkpoint = from_fields(payload);
     } catch (const std::out_of_range& problem) {
         throw refused_file(path, std::string("the checkpoint is damaged: ") + problem.what(), start_again);
     }
@@ -313,30 +287,6 @@ void require_same_springs(const Checkpoint& checkpoint, std::vector<Spring> spri
         if (!(spring == checkpoint.springs[l]))
             refuse("spring " + std::to_string(l + 1) + " is not the one that the run began with");
     }
-}
-
-std::string scene_difference(const std::string& scene_before, const std::string& scene_now) {
-    const auto only_tells_the_end = [](std::string_view line) {
-        return line.starts_with("production = ") || line.starts_with("equilibration = ");
-    };
-    std::istringstream before(scene_before), now(scene_now);
-    std::string line_before, line_now;
-    int line = 0;
-    do {
-        ++line;
-        if (!std::getline(before, line_before)) line_before = "(nothing)";
-        if (!std::getline(now, line_now)) line_now = "(nothing)";
-        if (!before && !now) return "";
-    } while (line_before == line_now || (only_tells_the_end(line_before) && only_tells_the_end(line_now)));
-    return "line " + std::to_string(line) + " of the resolved scene was \"" + line_before + "\" and is \"" + line_now +
-           "\"";
-}
-
-void require_same_scene(const Checkpoint& checkpoint, const std::string& scene, const std::string& folder) {
-    const std::string difference = scene_difference(checkpoint.scene, scene);
-    if (difference.empty()) return;
-    throw refused_file(folder + "/checkpoint", "the checkpoint is of another scene: " + difference,
-                       "Restore the scene, give another folder with --out, or start again with --fresh");
 }
 
 }  // namespace jostle

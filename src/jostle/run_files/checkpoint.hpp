@@ -1,37 +1,39 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "jostle/contact_problem/warm_start.hpp"
+#include "jostle/math/named_numbers.hpp"
 #include "jostle/rods/box.hpp"
 #include "jostle/rods/rods.hpp"
 #include "jostle/rods/spring.hpp"
 
 namespace jostle {
 
+/// How far a file had come.
+struct FilePosition {
+    std::uint64_t bytes = 0;
+    std::uint64_t hash = 0;  ///< checksum of these bytes
+    bool operator==(const FilePosition&) const = default;
+};
+
+using FilePositions = std::map<std::string, FilePosition>;  ///< by the names of the files, as "series.csv"
+
 /// Everything that a run needs to go on as if it had never stopped: the state, and how far its files had come.
 struct Checkpoint {
-    std::string scene;                   ///< resolved scene text; the same text is needed to go on
+    std::string scene;                   ///< resolved scene; a scene of the same physics is needed to go on
     std::uint64_t step = 0;              ///< steps done
     double time = 0.0;                   ///< simulated time
     Box box;                             ///< at that time
     Rods rods;                           ///< at that time, double precision
     std::vector<Spring> springs;         ///< between them, with the images that they hold
     std::vector<LastForce> last_forces;  ///< that the next step begins from, if any
-    std::vector<double> accumulators;    ///< running sums of the run; in the order of `StepSums::to_numbers`
-    std::uint64_t series_bytes = 0;      ///< length of series.csv, with the header
-    std::uint64_t series_hash = 0;       ///< checksum of these bytes
-    std::uint64_t trajectory_bytes = 0;  ///< length of trajectory.journal; 0: the run keeps no trajectory
-    std::uint64_t trajectory_hash = 0;   ///< checksum of these bytes
-    std::uint64_t contacts_bytes = 0;    ///< length of contacts.csv; 0: the run keeps none
-    std::uint64_t contacts_hash = 0;     ///< checksum of these bytes
-    std::uint64_t field_bytes = 0;       ///< length of field.csv; 0: the run keeps none
-    std::uint64_t field_hash = 0;        ///< checksum of these bytes
-    std::uint64_t lineage_bytes = 0;     ///< length of lineage.csv; 0: nothing grows
-    std::uint64_t lineage_hash = 0;      ///< checksum of these bytes
+    NamedNumbers sums;                   ///< of the run so far, `StepSums::to_named`
+    FilePositions files;                 ///< of the run's growing files
 };
 
 /// Writes FOLDER/checkpoint, and keeps the one before as FOLDER/checkpoint.previous.
@@ -44,7 +46,7 @@ void write_checkpoint(const std::string& folder, const Checkpoint& checkpoint);
 /// Reads and verifies one checkpoint file, and changes nothing.
 ///
 /// Format: 8 bytes "\x89JOSTLE\n", version (u32), 0 (u32), payload length (u64), payload, XXH3 checksum (u64) of all
-/// before; numbers little endian, doubles as they are.
+/// before. The payload is named fields (disk/named_fields.hpp); numbers are little endian, doubles as they are.
 /// Errors: InputError that tells apart a missing, foreign, truncated or damaged file, another format version, and
 /// contents that no run can have written (`impossible_content`).
 Checkpoint read_checkpoint(const std::string& path);
@@ -64,13 +66,5 @@ std::optional<Checkpoint> latest_checkpoint(const std::string& folder);
 /// round, all points of a rod may be on its other side. Errors: InputError.
 void require_same_springs(const Checkpoint& checkpoint, std::vector<Spring> springs, bool rods_turn_round,
                           const std::string& path);
-
-/// The first line in which two resolved scenes differ, in words; lines that only tell when to end do not count. Empty
-/// if there is none.
-std::string scene_difference(const std::string& before, const std::string& now);
-
-/// Refuses a checkpoint of another scene, but for time.production and time.equilibration, which only tell when to end;
-/// the message names the first line that differs. Errors: InputError.
-void require_same_scene(const Checkpoint& checkpoint, const std::string& scene, const std::string& folder);
 
 }  // namespace jostle

@@ -108,8 +108,9 @@ TrajectoryJournal TrajectoryJournal::resume(const std::string& path, std::uint64
     return journal;
 }
 
-void TrajectoryJournal::require_frames(const std::string& path, std::uint64_t bytes, std::uint64_t hash) {
-    checked_frames(path, bytes, hash);
+TrajectoryJournal::Content TrajectoryJournal::require_frames(const std::string& path, std::uint64_t bytes,
+                                                             std::uint64_t hash) {
+    return checked_frames(path, bytes, hash).content;
 }
 
 void TrajectoryJournal::write(const std::string& bytes) {

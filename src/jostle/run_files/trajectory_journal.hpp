@@ -15,6 +15,8 @@
 
 namespace jostle {
 
+inline constexpr const char* trajectory_journal_name = "trajectory.journal";  ///< in the folder of a run
+
 /// The frames of a trajectory while the run lasts: an append-only file, from which trajectory.h5 is made.
 ///
 /// Why not HDF5 at once: a kill within a flush, or a full disk, leaves an HDF5 file that no longer opens. Here the
@@ -37,8 +39,9 @@ public:
     /// another run; DiskError.
     static TrajectoryJournal resume(const std::string& path, std::uint64_t bytes, std::uint64_t hash);
 
-    /// The checks of `resume` alone, for looking at several files before one of them is cut. Errors: as there.
-    static void require_frames(const std::string& path, std::uint64_t bytes, std::uint64_t hash);
+    /// The checks of `resume` alone, for looking at several files before one of them is cut. Errors: as there. Result:
+    /// what the frames hold.
+    static Content require_frames(const std::string& path, std::uint64_t bytes, std::uint64_t hash);
 
     /// One frame, by one write. `stress` (N): of every rod, in a journal with stress; else empty. Errors: InputError if
     /// its size is another; DiskError, after which the journal ends with the frame before.

@@ -28,20 +28,27 @@ inline constexpr Dimension speed{1, -1, 0}, rate{0, -1, 0}, number_density{-3, 0
 inline constexpr Dimension energy{1, 0, 1}, stress{-2, 0, 1}, viscosity{-2, 1, 1};
 }  // namespace dimension
 
-/// What the table below says of a key: a number with a dimension, ...
+/// What the table below says of a key. `may_change`: a run that goes on may have another value, for it is no part of
+/// the physics, nor of what a row of the series is: it ends the run, or says what else is written and when.
+///
+/// A number with a dimension, ...
 struct Quantity {
     Dimension dimension;
     Range range;
     bool automatic = false;  ///< "auto" is admitted, and means an empty member
+    bool may_change = false;
 };
 /// ... a whole number, ...
 struct Count {
     std::uint64_t lower = 0;
     std::uint64_t upper = std::numeric_limits<std::int64_t>::max();  // the largest whole number of TOML
     bool automatic = false;                                          ///< "auto" is admitted, and means an empty member
+    bool may_change = false;
 };
 /// ... or a text, one of a few words (`words`), or true and false.
-struct Plain {};
+struct Plain {
+    bool may_change = false;
+};
 
 inline constexpr Range positive{Range::smallest, Range::largest};
 inline constexpr Range zero_or_positive{0.0, Range::largest};
@@ -55,7 +62,7 @@ inline constexpr Range zero_or_positive_length{0.0, Range::largest_length};
 template <class AnyScene, class Visitor>
 void for_each_key(AnyScene& scene, Visitor&& visit) {
     namespace dim = dimension;
-    visit("", "title", scene.title, Plain{});
+    visit("", "title", scene.title, Plain{.may_change = true});
     visit("", "seed", scene.seed, Count{});
     visit("units", "system", scene.units.system, Plain{});  // before every number, which may carry a unit
     visit("box", "volume_fraction", scene.box.volume_fraction, Quantity{dim::none, {Range::smallest, 1.0, false}});
@@ -95,25 +102,27 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("contact", "energy", scene.contact.energy, Quantity{dim::energy, positive, true});
     visit("contact", "brownian_correction", scene.contact.brownian_correction, Plain{});
     visit("contact", "range", scene.contact.range, Quantity{dim::length, positive, true});
-    visit("contact", "overlap_limit", scene.contact.overlap_limit, Quantity{dim::none, {0.0, 1.0, false, false}});
+    visit("contact", "overlap_limit", scene.contact.overlap_limit,
+          Quantity{.dimension = dim::none, .range = {0.0, 1.0, false, false}, .may_change = true});
     visit("solver", "method", scene.solver.method, Plain{});
     visit("solver", "warm_start", scene.solver.warm_start, Plain{});
     visit("solver", "step_rule", scene.solver.step_rule, Plain{});
     visit("solver", "residual", scene.solver.residual, Plain{});
     visit("solver", "tolerance", scene.solver.tolerance, Quantity{dim::none, {0.0, 0.1, false, false}});
-    visit("solver", "max_iterations", scene.solver.max_iterations, Count{1});
+    visit("solver", "max_iterations", scene.solver.max_iterations, Count{.lower = 1, .may_change = true});
     visit("time", "step", scene.time.step, Quantity{dim::time, positive});
     visit("time", "rms_step", scene.time.rms_step, Quantity{dim::none, {1e-6, 0.5}});
-    visit("time", "equilibration", scene.time.equilibration, Quantity{dim::time, zero_or_positive, true});
-    visit("time", "production", scene.time.production, Quantity{dim::time, positive});
+    visit("time", "equilibration", scene.time.equilibration, Quantity{dim::time, zero_or_positive, true, true});
+    visit("time", "production", scene.time.production,
+          Quantity{.dimension = dim::time, .range = positive, .may_change = true});
     visit("output", "series_every", scene.output.series_every, Count{1, most_steps});
-    visit("output", "trajectory_every", scene.output.trajectory_every, Count{.automatic = true});
-    visit("output", "trajectory_times", scene.output.trajectory_times, Plain{});
-    visit("output", "checkpoint_every", scene.output.checkpoint_every, Count{1});
-    visit("output", "contacts", scene.output.contacts, Plain{});
+    visit("output", "trajectory_every", scene.output.trajectory_every, Count{.automatic = true, .may_change = true});
+    visit("output", "trajectory_times", scene.output.trajectory_times, Plain{.may_change = true});
+    visit("output", "checkpoint_every", scene.output.checkpoint_every, Count{.lower = 1, .may_change = true});
+    visit("output", "contacts", scene.output.contacts, Plain{.may_change = true});
     visit("output", "stress_conventions", scene.output.stress_conventions, Plain{});
     visit("output", "stress_per_rod", scene.output.stress_per_rod, Plain{});
-    visit("output", "field_every", scene.output.field_every, Count{0});
+    visit("output", "field_every", scene.output.field_every, Count{.lower = 0, .may_change = true});
     visit("output", "field_spacing", scene.output.field_spacing, Quantity{dim::length, positive, true});
     visit("output", "active_stress_lag", scene.output.active_stress_lag, Quantity{dim::time, positive, true});
 }

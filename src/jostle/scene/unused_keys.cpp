@@ -2,52 +2,11 @@
 
 #include <fmt/core.h>
 
-#include <array>
-#include <optional>
-#include <type_traits>
-#include <utility>
-
+#include "jostle/scene/key_values.hpp"
 #include "jostle/scene/refusal.hpp"
 #include "jostle/scene/scene_keys.hpp"
 
 namespace jostle {
-
-namespace {
-
-std::string in_words(bool value) {
-    return value ? "true" : "false";
-}
-std::string in_words(const std::string& value) {
-    return value;
-}
-std::string in_words(const Vec3& value) {
-    return text(value);
-}
-template <class Value>
-std::string in_words(const Value& value) {
-    if constexpr (std::is_enum_v<Value>)
-        return std::string(word_of(value));
-    else
-        return fmt::format("{}", value);
-}
-template <class Value>
-std::string in_words(const std::optional<Value>& value) {
-    return value ? in_words(*value) : "auto";
-}
-std::string in_words(const std::array<bool, 3>& value) {
-    return fmt::format("[{}, {}, {}]", value[0], value[1], value[2]);
-}
-
-/// The values of all keys, in their order.
-std::vector<std::pair<std::string, std::string>> values_of(const Scene& scene) {
-    std::vector<std::pair<std::string, std::string>> values;
-    for_each_key(scene, [&](const char* table, const char* name, const auto& member, const auto&) {
-        values.emplace_back(full_key(table, name), in_words(member));
-    });
-    return values;
-}
-
-}  // namespace
 
 std::vector<UnusedKey> unused_keys(const Scene& scene) {
     std::vector<UnusedKey> unused;
@@ -100,11 +59,11 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
 }
 
 void refuse_unused_keys(const Scene& scene) {
-    const auto values = values_of(scene), defaults = values_of(Scene{});
+    const auto values = key_values(scene), defaults = key_values(Scene{});
     for (const UnusedKey& unused : unused_keys(scene))
         for (std::size_t k = 0; k < values.size(); ++k)
-            if (values[k].first == unused.key && values[k].second != defaults[k].second)
-                refuse(unused.key, values[k].second, unused.reason, "", unused.suggestion);
+            if (values[k].key == unused.key && values[k].text != defaults[k].text)
+                refuse(unused.key, values[k].text, unused.reason, "", unused.suggestion);
 }
 
 }  // namespace jostle

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/parallel/parallel_for.hpp"
@@ -111,31 +112,43 @@ void ActiveStress::remember_new(const Rods& rods, const Box& box) {
     });
 }
 
-std::vector<double> ActiveStress::to_numbers() const {
-    std::vector<double> numbers = {static_cast<double>(lag_), static_cast<double>(looks_)};
-    for (std::size_t k = 0; k < id_.size(); ++k) {
-        numbers.push_back(static_cast<double>(id_[k]));  // ids are below 2^53
-        for (const Vec3& position : {newer_[k], older_[k]})
-            numbers.insert(numbers.end(), {position.x, position.y, position.z});
+NamedNumbers ActiveStress::to_named() const {
+    NamedNumbers numbers;
+    numbers["lag"] = {static_cast<double>(lag_)};
+    numbers["looks"] = {static_cast<double>(looks_)};
+    numbers["id"].assign(id_.begin(), id_.end());  // below 2^53
+    for (const auto& [name, positions] : {std::pair{"newer", &newer_}, {"older", &older_}}) {
+        std::vector<double>& coordinates = numbers[name];
+        for (const Vec3& position : *positions)
+            coordinates.insert(coordinates.end(), {position.x, position.y, position.z});
     }
     return numbers;
 }
 
-ActiveStress ActiveStress::from_numbers(std::span<const double> numbers) {
-    constexpr std::size_t first = 2, each = 7;
-    const auto is_count = [](double value) { return value >= 0.0 && value <= 1e16; };  // false for nan
-    bool whole = numbers.size() >= first && (numbers.size() - first) % each == 0;
-    for (std::size_t k = 0; whole && k < numbers.size(); k += k < first ? 1 : each) whole = is_count(numbers[k]);
-    if (!whole)
-        throw InputError({.key = "checkpoint",
-                          .problem = "the positions that the active stress counts from are not whole",
-                          .suggestion = "Start anew with --fresh"});
-    ActiveStress stress(static_cast<std::uint64_t>(numbers[0]));
-    stress.looks_ = static_cast<std::uint64_t>(numbers[1]);
-    for (std::size_t k = first; k < numbers.size(); k += each) {
-        stress.id_.push_back(static_cast<std::uint64_t>(numbers[k]));
-        stress.newer_.push_back({numbers[k + 1], numbers[k + 2], numbers[k + 3]});
-        stress.older_.push_back({numbers[k + 4], numbers[k + 5], numbers[k + 6]});
+ActiveStress ActiveStress::from_named(const NamedNumbers& numbers) {
+    const auto require = [](bool sound) {
+        if (!sound)
+            throw InputError({.key = "checkpoint",
+                              .problem = "the positions that the active stress counts from are not whole",
+                              .suggestion = "Start anew with --fresh"});
+    };
+    const auto values = [&](const char* name) -> std::span<const double> {
+        const auto found = numbers.find(name);
+        return found == numbers.end() ? std::span<const double>() : found->second;
+    };
+    const auto are_counts = [](std::span<const double> all) {
+        return std::all_of(all.begin(), all.end(), [](double value) { return value >= 0.0 && value <= 1e16; });
+    };
+    const auto lag = values("lag"), looks = values("looks"), id = values("id");
+    require(lag.size() == 1 && looks.size() == 1 && are_counts(lag) && are_counts(looks) && are_counts(id));
+    ActiveStress stress(static_cast<std::uint64_t>(lag[0]));
+    stress.looks_ = static_cast<std::uint64_t>(looks[0]);
+    for (const double each : id) stress.id_.push_back(static_cast<std::uint64_t>(each));
+    for (const auto& [name, positions] : {std::pair{"newer", &stress.newer_}, {"older", &stress.older_}}) {
+        const auto coordinates = values(name);
+        require(coordinates.size() == 3 * id.size());
+        for (std::size_t k = 0; k < coordinates.size(); k += 3)
+            positions->push_back({coordinates[k], coordinates[k + 1], coordinates[k + 2]});
     }
     return stress;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "jostle/math/mat3.hpp"
+#include "jostle/math/named_numbers.hpp"
 #include "jostle/rods/box.hpp"
 #include "jostle/rods/rods.hpp"
 
@@ -37,8 +38,9 @@ public:
     Mat3 virial(const Rods& rods, const Box& box, std::span<const Vec3> force);
 
     /// For checkpoints.
-    std::vector<double> to_numbers() const;
-    static ActiveStress from_numbers(std::span<const double> numbers);
+    NamedNumbers to_named() const;
+    /// Errors: InputError if they are not whole.
+    static ActiveStress from_named(const NamedNumbers& numbers);
 
 private:
     std::size_t place_of(std::uint64_t id) const;

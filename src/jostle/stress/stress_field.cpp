@@ -15,7 +15,6 @@ namespace jostle {
 namespace {
 
 constexpr double most_cells = 1e6;
-constexpr std::size_t head_count = 10, each = 19;  // numbers in a checkpoint: of the grid, and of a cell or outside
 
 [[noreturn]] void refuse_spacing(double spacing, std::string problem, std::string allowed) {
     throw InputError({.key = "output.field_spacing",
@@ -141,52 +140,58 @@ Vec3 StressField::centre(std::size_t cell) const {
     return {middle(a, edges_.x), middle(b, edges_.y), middle(c, edges_.z)};
 }
 
-std::vector<double> StressField::to_numbers() const {
-    std::vector<double> numbers = {box_.edges.x, box_.edges.y, box_.edges.z};
-    for (const bool periodic : box_.periodic) numbers.push_back(periodic ? 1.0 : 0.0);
-    for (const std::size_t count : cells_) numbers.push_back(static_cast<double>(count));
-    numbers.push_back(steps_);
-    const auto append = [&](const Content& content) {
-        numbers.push_back(content.number_density);
-        for (const Mat3* tensor : {&content.collision, &content.orientation})
-            numbers.insert(numbers.end(), tensor->m.begin(), tensor->m.end());
+NamedNumbers StressField::to_named() const {
+    NamedNumbers numbers;
+    numbers["edges"] = {box_.edges.x, box_.edges.y, box_.edges.z};
+    numbers["periodic"].assign(box_.periodic.begin(), box_.periodic.end());
+    numbers["cells"].assign(cells_.begin(), cells_.end());
+    numbers["steps"] = {steps_};
+    auto &density = numbers["number_density"], &collision = numbers["collision"], &orientation = numbers["orientation"];
+    const auto append = [&](const Content& content) {  // all that lies outside, then cell by cell
+        density.push_back(content.number_density);
+        collision.insert(collision.end(), content.collision.m.begin(), content.collision.m.end());
+        orientation.insert(orientation.end(), content.orientation.m.begin(), content.orientation.m.end());
     };
     append(outside_);
     for (const Content& cell : content_) append(cell);
     return numbers;
 }
 
-StressField StressField::from_numbers(std::span<const double> numbers) {
+StressField StressField::from_named(const NamedNumbers& numbers) {
     const auto require = [](bool sound) {
         if (!sound)
             throw InputError({.key = "checkpoint",
                               .problem = "the sums of the stress field are not whole",
                               .suggestion = "Start anew with --fresh"});
     };
-    require(numbers.size() >= head_count + each);
-    Box box{{numbers[0], numbers[1], numbers[2]}, {numbers[3] != 0.0, numbers[4] != 0.0, numbers[5] != 0.0}};
+    const auto values = [&](const char* name, std::size_t count) -> const std::vector<double>& {
+        const auto found = numbers.find(name);
+        require(found != numbers.end() && found->second.size() == count);
+        return found->second;
+    };
+    const auto &edges = values("edges", 3), &periodic = values("periodic", 3), &counts = values("cells", 3);
+    const Box box{{edges[0], edges[1], edges[2]}, {periodic[0] != 0.0, periodic[1] != 0.0, periodic[2] != 0.0}};
     StressField field(box, std::max({box.edges.x, box.edges.y, box.edges.z}));  // one cell or few, made anew below
     double total = 1.0;
     for (int k = 0; k < 3; ++k) {
-        const double count = numbers[6 + static_cast<std::size_t>(k)];
+        const double count = counts[static_cast<std::size_t>(k)];
         require(count >= 1.0 && count == std::floor(count) && (total *= count) <= most_cells);
         field.cells_[static_cast<std::size_t>(k)] = static_cast<std::size_t>(count);
         field.edges_[k] = box.edges[k] / count;
     }
+    field.steps_ = values("steps", 1)[0];
     const auto cells = static_cast<std::size_t>(total);
-    require(numbers.size() == head_count + each * (1 + cells));
-    field.steps_ = numbers[9];
-    auto next = numbers.begin() + head_count;
-    const auto take = [&](Content& content) {
-        content.number_density = *next++;
-        for (Mat3* tensor : {&content.collision, &content.orientation}) {
-            std::copy_n(next, 9, tensor->m.begin());
-            next += 9;
-        }
+    const auto &density = values("number_density", 1 + cells), &collision = values("collision", 9 * (1 + cells)),
+               &orientation = values("orientation", 9 * (1 + cells));
+    const auto take = [&](Content& content, std::size_t place) {
+        content.number_density = density[place];
+        const auto first = static_cast<std::ptrdiff_t>(9 * place);
+        std::copy_n(collision.begin() + first, 9, content.collision.m.begin());
+        std::copy_n(orientation.begin() + first, 9, content.orientation.m.begin());
     };
-    take(field.outside_);
+    take(field.outside_, 0);
     field.content_.resize(cells);
-    for (Content& cell : field.content_) take(cell);
+    for (std::size_t cell = 0; cell < cells; ++cell) take(field.content_[cell], 1 + cell);
     return field;
 }
 

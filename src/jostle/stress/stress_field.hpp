@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "jostle/math/named_numbers.hpp"
 #include "jostle/stress/collision_moments.hpp"
 
 namespace jostle {
@@ -49,8 +50,9 @@ public:
     Content outside_mean() const { return mean_of(outside_); }
 
     /// For checkpoints.
-    std::vector<double> to_numbers() const;
-    static StressField from_numbers(std::span<const double> numbers);
+    NamedNumbers to_named() const;
+    /// Errors: InputError if they are not whole.
+    static StressField from_named(const NamedNumbers& numbers);
 
 private:
     Content mean_of(const Content& sum) const { return Content{}.add(1.0 / (steps_ * cell_volume()), sum); }

@@ -72,7 +72,8 @@ TEST_CASE("a measurement that is stopped and goes on comes to the same") {
     Measurement of_whole(scene, whole), first(scene, halves);
     for (int k = 0; k < 80; ++k) of_whole.add(whole.step(), whole);
     for (int k = 0; k < 38; ++k) first.add(halves.step(), halves);  // within a row, and within a field
-    Measurement second(scene, halves, StepSums::from_numbers(first.sums().to_numbers(), scene), first.series());
+    Measurement second(scene, halves, StepSums::from_named(first.sums().to_named(), scene, halves.box()),
+                       first.series());
     for (int k = 38; k < 80; ++k) second.add(halves.step(), halves);
     CHECK(second.summary(halves) == of_whole.summary(whole));
     CHECK(second.last_field() == of_whole.last_field());
@@ -84,7 +85,7 @@ TEST_CASE("a measurement that goes on without the earlier rows knows when they e
     Simulation simulation = begun(scene);
     Measurement first(scene, simulation);
     for (int k = 0; k < 38; ++k) first.add(simulation.step(), simulation);
-    Measurement second(scene, simulation, StepSums::from_numbers(first.sums().to_numbers(), scene));
+    Measurement second(scene, simulation, StepSums::from_named(first.sums().to_named(), scene, simulation.box()));
     CHECK(second.series().rows() == 0);
     int steps = 0;
     for (; !second.is_complete(); ++steps) second.add(simulation.step(), simulation);

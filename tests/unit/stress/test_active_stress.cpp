@@ -42,7 +42,7 @@ TEST_CASE("x F with unwrapped x, first index that of x, from positions of one to
         CHECK(virial(1, 2) == doctest::Approx(8.0 * age));
         CHECK(virial(1, 0) == 0.0);
         CHECK(virial(2, 1) == 0.0);
-        if (look % 3 == 0) stress = ActiveStress::from_numbers(stress.to_numbers());
+        if (look % 3 == 0) stress = ActiveStress::from_named(stress.to_named());
     }
 }
 
@@ -92,6 +92,14 @@ TEST_CASE("daughters go on with their mother's path, and how their centres part 
 
 TEST_CASE("no lag, and numbers that are not whole, are refused") {
     CHECK_THROWS_AS(ActiveStress(0), InputError);
-    CHECK_THROWS_AS(ActiveStress::from_numbers(std::vector<double>{1.0}), InputError);
-    CHECK_THROWS_AS(ActiveStress::from_numbers(std::vector<double>{1.0, 0.0, 3.0}), InputError);
+    const NamedNumbers whole = {
+        {"lag", {2.0}}, {"looks", {3.0}}, {"id", {4.0}}, {"newer", {0.0, 0.0, 0.0}}, {"older", {0.0, 0.0, 0.0}}};
+    CHECK_NOTHROW(ActiveStress::from_named(whole));
+    for (const auto& [name, values] : whole) {
+        NamedNumbers numbers = whole;
+        numbers.erase(name);
+        CHECK_THROWS_AS(ActiveStress::from_named(numbers), InputError);
+        numbers[name] = {-1.0};
+        CHECK_THROWS_AS(ActiveStress::from_named(numbers), InputError);
+    }
 }

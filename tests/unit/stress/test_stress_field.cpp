@@ -153,18 +153,24 @@ TEST_CASE("through a checkpoint to the bit") {
     const Crowd crowd(generator);
     StressField field(crowd.box, 1.3);
     field.add(crowd.moments(ContactDistance::touching), crowd.rods, 1.0);
-    std::vector<double> numbers = field.to_numbers();
-    StressField again = StressField::from_numbers(numbers);
+    const NamedNumbers numbers = field.to_named();
+    StressField again = StressField::from_named(numbers);
     CHECK(again.cells() == field.cells());
-    CHECK(again.to_numbers() == numbers);
+    CHECK(again.to_named() == numbers);
     for (StressField* each : {&field, &again}) each->add(crowd.moments(ContactDistance::at_start), crowd.rods, 1.0);
-    CHECK(again.to_numbers() == field.to_numbers());
+    CHECK(again.to_named() == field.to_named());
     CHECK(again.mean(7).collision.m == field.mean(7).collision.m);
-    numbers.pop_back();
-    CHECK_THROWS_AS(StressField::from_numbers(numbers), InputError);
-    CHECK_THROWS_AS(StressField::from_numbers({}), InputError);
-    numbers[6] = 1e9;
-    CHECK_THROWS_AS(StressField::from_numbers(numbers), InputError);
+    CHECK_THROWS_AS(StressField::from_named({}), InputError);
+    for (const auto& [name, values] : numbers) {
+        NamedNumbers other = numbers;
+        other[name].pop_back();
+        CHECK_THROWS_AS(StressField::from_named(other), InputError);
+        other.erase(name);
+        CHECK_THROWS_AS(StressField::from_named(other), InputError);
+    }
+    NamedNumbers other = numbers;
+    other["cells"][0] = 1e9;
+    CHECK_THROWS_AS(StressField::from_named(other), InputError);
 }
 
 TEST_CASE("spacings that make no grid are refused") {
