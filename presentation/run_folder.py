@@ -1,27 +1,48 @@
-"""What a run left, beside its trajectory: scene, series, averages, and how it ran."""
+"""What a run left, beside its trajectory, as pages, films, tables of runs and studies look at it."""
 
-import io
-import json
-import tomllib
-from dataclasses import dataclass
+import importlib.util
 from pathlib import Path
-
-import numpy as np
 
 import units
 from refusal import Refusal
 
-SIGNS = ("run.json", "resolved.toml", "checkpoint", "trajectory.h5", "series.csv")
+
+def _of_the_package(name):
+    """A module of the Python package that needs no extension, from its file: the package itself does."""
+    path = Path(__file__).resolve().parents[1] / "python" / "jostle" / f"{name}.py"
+    spec = importlib.util.spec_from_file_location(f"jostle_{name}", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
-@dataclass
-class Run:
-    folder: Path
-    scene: dict     # with every default
-    series: dict    # column name -> numbers, one a row
-    columns: dict   # column name -> what series.json tells of it
-    summary: dict   # empty if the run is not done
-    record: dict    # run.json
+_reader = _of_the_package("run_folder")
+RunFolder, structured = _reader.RunFolder, _reader.structured
+
+
+def _refuse(path, problem, advice):
+    raise Refusal(path, problem, advice) from None
+
+
+class Run(RunFolder):
+    """Raises Refusal where a file cannot be used.
+
+    scene : {table: {key: value}}, with every default
+    series : {column: numbers, one a row}, at least one row
+    """
+
+    def __init__(self, folder):
+        super().__init__(folder, _refuse)
+
+    @property
+    def scene(self):
+        return self.scene_tables
+
+    @property
+    def series(self):
+        if len(next(iter(self.series_columns.values()))) == 0:
+            _refuse(self.folder / "series.csv", "cannot be used: it has no row yet", _reader.VERIFY)
+        return self.series_columns
 
     @property
     def title(self):
@@ -49,48 +70,14 @@ class Run:
         """The same of a unit as the files write it."""
         return units.readable(unit, self.scene)
 
-    def table(self, name):
-        """Columns of another table of the run, as those of the series; none if it has no row."""
-        return _read(self.folder / name, lambda text: _columns_of_text(text, empty=True))
-
 
 def require_run_folder(folder):
-    folder = Path(folder)
-    if not folder.exists():
-        raise Refusal(folder, "there is no such folder", "Give the folder that `jostle run` named")
-    if not folder.is_dir() or not any((folder / name).exists() for name in SIGNS):
-        raise Refusal(folder, "this is not the folder of a run", "Give the folder that `jostle run` named")
-    return folder
+    return _reader.require_run_folder(folder, _refuse)
 
 
 def read_run(folder):
-    folder = require_run_folder(folder)
-    described = _read(folder / "series.json", json.loads)
-    return Run(folder=folder, scene=_read(folder / "resolved.toml", tomllib.loads),
-               series=_read(folder / "series.csv", _columns_of_text),
-               columns={column["name"]: column for column in described["columns"]},
-               summary=_read(folder / "summary.json", json.loads) if (folder / "summary.json").exists() else {},
-               record=_read(folder / "run.json", json.loads))
-
-
-def _columns_of_text(text, empty=False):
-    lines = text.splitlines(keepends=True)
-    if lines and not lines[-1].endswith("\n"):
-        lines.pop()  # a run that goes on, or was killed, may be within a row
-    names = lines[0].strip().split(",") if lines else []
-    if len(lines) < 2:
-        if empty:
-            return {name: np.empty(0) for name in names}
-        raise ValueError("it has no row yet")
-    rows = np.loadtxt(io.StringIO("".join(lines[1:])), delimiter=",", ndmin=2)
-    return dict(zip(names, rows.T, strict=True))
-
-
-def _read(path, parse):
-    try:
-        return parse(path.read_text())
-    except OSError as error:
-        raise Refusal(path, f"cannot be read: {error.strerror}", "`jostle verify` tells the state of a run") from None
-    except ValueError as error:
-        problem = " ".join(str(error).split())
-        raise Refusal(path, f"cannot be used: {problem}", "`jostle verify` tells the state of a run") from None
+    """The run in a folder, all of whose small files are sound; its summary is {} if it is not done."""
+    run = Run(folder)
+    run.summary = run.summary or {}
+    _ = run.scene, run.series, run.columns, run.record
+    return run

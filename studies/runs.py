@@ -14,6 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path += [str(ROOT / "sweeps"), str(ROOT / "presentation")]
 
 import side_by_side  # noqa: E402  (the path comes first)
+from run_folder import RunFolder, structured  # noqa: E402
 from runs_table import flat  # noqa: E402
 from side_by_side import duration  # noqa: E402
 
@@ -62,12 +63,17 @@ class Run:
         return self.folder.with_name(self.folder.name + ending)
 
     @functools.cached_property
-    def summary(self):
-        return json.loads((self.folder / "summary.json").read_text())
+    def left(self):
+        """What the run left: its folder as everybody reads it."""
+        return RunFolder(self.folder, refuse)
 
-    @functools.cached_property
+    @property
+    def summary(self):
+        return self.left.summary
+
+    @property
     def record(self):
-        return json.loads((self.folder / "run.json").read_text())
+        return self.left.record
 
     @property
     def threads(self):
@@ -110,8 +116,12 @@ class Run:
 
     def series(self):
         """The rows of production, by column name."""
-        rows = numpy.genfromtxt(self.folder / "series.csv", delimiter=",", names=True)
+        rows = structured(self.left.series_columns)
         return rows[rows["step"] > self.equilibration]
+
+
+def refuse(path, problem, advice):
+    raise RunFailed(f"{path}: {problem}. {advice}") from None
 
 
 def error_of_blocks(rows):

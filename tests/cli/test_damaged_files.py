@@ -149,7 +149,7 @@ def test_flipped_bits_in_the_checkpoint(torn_copy):
     path = torn_copy / "run/checkpoint"
     size = path.stat().st_size
     in_header = [8 * place + random.randrange(8) for place in (0, 8, 12, 16, 23)]
-    for bit in in_header + [random.randrange(8 * HEADER, 8 * size) for _ in range(FLIPS)]:
+    for bit in in_header + [random.randrange(8 * CHECKPOINT_HEADER, 8 * size) for _ in range(FLIPS)]:
         flip_bit(path, bit)
         refuse(torn_copy, "run/checkpoint: ")
         flip_bit(path, bit)

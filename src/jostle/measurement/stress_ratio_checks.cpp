@@ -38,12 +38,12 @@ double stress_ratio(std::span<const double> means, const Vec3& direction) {
 }
 
 /// What a ratio may be in equilibrium.
-struct Range {
+struct RatioRange {
     double from, to;
 };
 
 /// `error` of the difference between the two, which agree within `limit` of it.
-Json ratio_check(const char* definition, const Estimate& measured, const Range& in_equilibrium,
+Json ratio_check(const char* definition, const Estimate& measured, const RatioRange& in_equilibrium,
                  const std::optional<double>& error, double limit) {
     const double difference = measured.value - std::clamp(measured.value, in_equilibrium.from,
                                                           std::max(in_equilibrium.from, in_equilibrium.to));

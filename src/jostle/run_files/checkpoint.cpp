@@ -155,6 +155,7 @@ Checkpoint from_fields(std::string_view payload) {
     for (const std::string& name : reader.names_after("sums."))
         checkpoint.sums[name] = reader.take_array<double>("sums." + name);
     for (const std::string& name : reader.names_after("files.")) {
+        if (name.find('/') != std::string::npos) throw std::out_of_range("a file of it lies elsewhere");
         const auto [bytes, hash] = reader.take<std::array<std::uint64_t, 2>>("files." + name);
         checkpoint.files[name] = {bytes, hash};
     }

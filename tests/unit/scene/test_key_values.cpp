@@ -16,6 +16,7 @@ Scene some_scene() {
     scene.rods.length = 5.0;
     scene.time.rms_step = 0.03;
     scene.time.production = 100.0;
+    scene.output.trajectory_every = 0;
     return scene;
 }
 
