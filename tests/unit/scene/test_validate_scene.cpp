@@ -146,7 +146,11 @@ TEST_CASE("keys beside keys") {
     CHECK(refused_key([](Scene& s) { s.time.rms_step = 0.03; }) == "time.rms_step");
     CHECK(refused_key([](Scene& s) { s.time.step.reset(); }) == "time.step");
     CHECK(refused_key([](Scene& s) { s.rods.file = "rods.csv"; }) == "rods.file");
-    CHECK(refused_key([](Scene& s) { s.output.stress_per_rod = true; }) == "output.stress_per_rod");
+    CHECK(refused_key([](Scene& s) { s.output.stress_per_rod = true; }) == "");
+    CHECK(refused_key([](Scene& s) {
+              s.output.trajectory_every = 0;
+              s.output.stress_per_rod = true;
+          }) == "output.stress_per_rod");
     CHECK(refused_key([](Scene& s) { s.output.field_spacing = 2.0; }) == "output.field_spacing");
     CHECK(refused_key([](Scene& s) { s.springs.file = "springs.csv"; }) == "");
     CHECK(refused_key([](Scene& s) {
