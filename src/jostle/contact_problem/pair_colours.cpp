@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "jostle/contact_problem/pair_problem.hpp"
+#include "jostle/math/mixed_bits.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
@@ -13,17 +14,10 @@ namespace {
 
 constexpr std::size_t most_colours = 64;
 
-/// Spreads the bits of a number over all of it; one to one.
-std::uint64_t mixed(std::uint64_t x) {
-    x = (x ^ x >> 32) * 0xD6E8FEB86659FD93;
-    x = (x ^ x >> 32) * 0xD6E8FEB86659FD93;
-    return x ^ x >> 32;
-}
-
 std::uint64_t priority_of(std::uint64_t id_i, std::uint64_t id_j, const Image& image) {
-    std::uint64_t hash = mixed(mixed(id_i) + id_j);
+    std::uint64_t hash = mixed_bits(mixed_bits(id_i) + id_j);
     if (image == Image{0, 0, 0}) return hash;
-    for (const std::int32_t k : image) hash = mixed(hash + static_cast<std::uint32_t>(k));
+    for (const std::int32_t k : image) hash = mixed_bits(hash + static_cast<std::uint32_t>(k));
     return hash;
 }
 
@@ -85,24 +79,26 @@ void PairColours::list_turns(const ContactMatrix& contact_matrix) {
         turns_[next_[pair.i]++] = {priority_[p], p};
         if (pair.j != pair.i) turns_[next_[pair.j]++] = {priority_[p], p};
     }
-    // Equal priorities: the same rods in several images, or at points that were found one after the other; or, once in
-    // 10^19, others.
-    const auto key = [&](const Turn& turn) {
-        const ContactPair& pair = pairs_[turn.pair];
-        return std::tuple(contact_matrix.id_of(pair.i), contact_matrix.id_of(pair.j),
-                          contact_matrix.contacts().image[pair.first], pair.first);
-    };
-    const auto before = [&](const Turn& a, const Turn& b) {
-        return a.priority != b.priority ? a.priority < b.priority : key(a) < key(b);
-    };
     parallel_for(places, [&](std::size_t place) {
         const auto first = turns_.begin() + begin_[place], last = turns_.begin() + begin_[place + 1];
-        if (last - first > 1) std::sort(first, last, before);
+        if (last - first > 1)
+            std::sort(first, last, [&](const Turn& a, const Turn& b) { return comes_before(a, b, contact_matrix); });
         next_[place] = begin_[place];
     });
     ready_.clear();
     for (std::uint32_t p = 0; p < pairs_.size(); ++p)
         if (turns_[next_[pairs_[p].i]].pair == p && turns_[next_[pairs_[p].j]].pair == p) ready_.push_back(p);
+}
+
+bool PairColours::comes_before(const Turn& a, const Turn& b, const ContactMatrix& contact_matrix) const {
+    if (a.priority != b.priority) return a.priority < b.priority;
+    // The same rods in several images, or at points that were found one after the other; or, once in 10^19, others.
+    const auto key = [&](const Turn& turn) {
+        const ContactPair& pair = pairs_[turn.pair];
+        return std::tuple(contact_matrix.id_of(pair.i), contact_matrix.id_of(pair.j),
+                          contact_matrix.contacts().image[pair.first], pair.first);
+    };
+    return key(a) < key(b);
 }
 
 void PairColours::give_colour(std::uint32_t number) {
@@ -129,12 +125,9 @@ void PairColours::advance(std::uint32_t place) {
 
 /// Each alone, in order.
 void PairColours::give_colours_beyond_most(const ContactMatrix& contact_matrix) {
-    const auto key = [&](std::uint32_t p) {
-        const ContactPair& pair = pairs_[p];
-        return std::tuple(priority_[p], contact_matrix.id_of(pair.i), contact_matrix.id_of(pair.j),
-                          contact_matrix.contacts().image[pair.first], pair.first);
-    };
-    std::sort(beyond_.begin(), beyond_.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    std::sort(beyond_.begin(), beyond_.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return comes_before({priority_[a], a}, {priority_[b], b}, contact_matrix);
+    });
     for (const std::uint32_t p : beyond_) {
         by_colour_.resize(std::max(by_colour_.size(), most_colours));
         by_colour_.push_back({pairs_[p]});

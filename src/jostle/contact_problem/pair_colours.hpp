@@ -27,17 +27,18 @@ public:
     const std::vector<std::vector<ContactPair>>& extend(const ContactMatrix& contact_matrix);
 
 private:
-    void list_new_pairs(const ContactMatrix& contact_matrix);
-    void list_turns(const ContactMatrix& contact_matrix);
-    void give_colour(std::uint32_t pair);
-    void advance(std::uint32_t place);
-    void give_colours_beyond_most(const ContactMatrix& contact_matrix);
-
     /// A pair in the list of one of its rods.
     struct Turn {
         std::uint64_t priority;
         std::uint32_t pair;
     };
+
+    void list_new_pairs(const ContactMatrix& contact_matrix);
+    void list_turns(const ContactMatrix& contact_matrix);
+    bool comes_before(const Turn& a, const Turn& b, const ContactMatrix& contact_matrix) const;
+    void give_colour(std::uint32_t pair);
+    void advance(std::uint32_t place);
+    void give_colours_beyond_most(const ContactMatrix& contact_matrix);
 
     std::vector<std::uint64_t> taken_;  ///< (places) a bit for each colour that a rod has
     std::size_t coloured_ = 0;          ///< contacts taken in

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "jostle/math/mixed_bits.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
@@ -44,9 +45,8 @@ private:
 
     /// Where a force of this key is, or would be.
     std::size_t slot_of(const LastForce& wanted) const {
-        std::uint64_t hash = wanted.i * 0x9E3779B97F4A7C15 + wanted.j;
-        hash = (hash ^ hash >> 32) * 0xD6E8FEB86659FD93 + static_cast<std::uint64_t>(wanted.feature);
-        std::size_t slot = (hash ^ hash >> 32) & (slot_.size() - 1);
+        const auto feature = static_cast<std::uint64_t>(wanted.feature);
+        std::size_t slot = mixed_bits(mixed_bits(wanted.i) + wanted.j + feature) & (slot_.size() - 1);
         while (slot_[slot] != empty && key_of(forces_[slot_[slot]]) != key_of(wanted))
             slot = (slot + 1) & (slot_.size() - 1);
         return slot;
