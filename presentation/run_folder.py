@@ -7,7 +7,7 @@ import units
 from refusal import Refusal
 
 
-def _of_the_package(name):
+def of_the_package(name):
     """A module of the Python package that needs no extension, from its file: the package itself does."""
     path = Path(__file__).resolve().parents[1] / "python" / "jostle" / f"{name}.py"
     spec = importlib.util.spec_from_file_location(f"jostle_{name}", path)
@@ -16,7 +16,7 @@ def _of_the_package(name):
     return module
 
 
-_reader = _of_the_package("run_folder")
+_reader = of_the_package("run_folder")
 RunFolder, structured = _reader.RunFolder, _reader.structured
 
 

@@ -6,7 +6,9 @@ the axis.
 
 import numpy as np
 
-from quaternion import turning_z_to
+from run_folder import of_the_package
+
+turning_z_to = of_the_package("gsd_frames").turning_z_to
 
 PROPERTIES = "species:S:1:pos:R:3:orientation:R:4:aspherical_shape:R:3:id:I:1"
 CREATOR = 'creator="jostle export"'

@@ -72,7 +72,10 @@ void SimulationInPython::step() {
         }
         failure_ = step_failure(*report_, scene_.scene, simulation_.rods()).value_or("");
         if (report_->status != LcpStatus::converged) return;
-        measurement_.add(*report_, simulation_);
+        const Due due = measurement_.add(*report_, simulation_);
+        for (Recording& recording : recordings_)
+            if (recording.every == 0 ? due.frame : simulation_.clock().step % recording.every == 0)
+                append_frame(recording);
     }
 }
 
@@ -323,6 +326,9 @@ void bind_simulation(py::module_& module) {
         .def("field_columns",
              [](const SimulationInPython& self) { return described(field_columns(self.scene().scene).about()); })
         .def("save", &SimulationInPython::save)
+        .def("record", &SimulationInPython::record)
+        .def("frames_of", &SimulationInPython::frames_of)
+        .def("end_recording", &SimulationInPython::end_recording)
         .def("report", &report_of)
         .def("failure", &SimulationInPython::failure)
         .def("lineage", &lineage_of)

@@ -6,6 +6,7 @@
 #include "bindings/scene.hpp"
 #include "jostle/measurement/measurement.hpp"
 #include "jostle/run_files/checkpoint.hpp"
+#include "jostle/run_files/trajectory_journal.hpp"
 #include "jostle/simulation/simulation.hpp"
 
 namespace jostle::python {
@@ -43,11 +44,25 @@ public:
     std::size_t row_count() const;
     void save(const std::string& folder) const;
 
+    /// Writes the rods as they are to a new journal, and after every step whose number is a multiple of `every`; 0:
+    /// when the scene has frames due. Result: the number of the recording. Errors: DiskError, also of later steps.
+    std::size_t record(const std::string& journal, std::uint64_t every);
+    std::size_t frames_of(std::size_t recording) const;
+    /// Ends it; with a path, makes an H5MD file of the journal.
+    void end_recording(std::size_t recording, const std::string& h5md);
+
     int traverse(visitproc visit, void* argument) const;
     void clear() { functions_.clear(); }
 
 private:
     class Step;
+    struct Recording {
+        std::optional<TrajectoryJournal> journal;  ///< empty once it has ended
+        std::string path;
+        std::uint64_t every;
+        std::size_t frames = 0;
+    };
+    void append_frame(Recording& recording);
     void require_rest() const;
     void require_between_steps() const;
     void require_whole() const;
@@ -56,7 +71,8 @@ private:
     Simulation simulation_;
     Measurement measurement_;
     std::vector<py::function> functions_;  ///< here, not in the motions, where the garbage collector can see them
-    std::shared_ptr<RodsInOrder> rods_;    ///< empty until they are asked for
+    std::vector<Recording> recordings_;
+    std::shared_ptr<RodsInOrder> rods_;  ///< empty until they are asked for
     std::optional<StepReport> report_;
     std::string failure_;
     bool broken_ = false;  ///< a step ended half way, as where cells become what no mobility is there for

@@ -10,25 +10,30 @@
     Scene, Simulation       what `jostle run` does, step by step
     load                    what `jostle run` left
     average                 mean and standard error of a correlated series
+    sweep                   a scene at many values, what `jostle sweep` does
+    analysis                displacements, correlations, structure factor, clusters of trajectories
 
 Errors are InputError (a ValueError), StepFailure (a RuntimeError) and DiskError (an OSError). Arguments are converted
 from whole numbers and float32; truth values, complex numbers, texts, NaN and infinity are refused.
 """
 
 from . import _waiting_threads  # before OpenMP is loaded
+from . import analysis
 from ._jostle import DiskError, InputError
 from ._jostle import version as __version__
 from .bodies import Body, body_moments, combined
 from .contact import segment_distance
 from .lcp import LcpResult, solve_lcp
+from .recording import Recording
 from .run import Run, load
 from .scene import Scene
 from .simulation import Simulation, StepFailure, StepReport
 from .statistics import Average, average
 from .stress import ContactStress, PairStress, collision_stress, contact_stress, orientation_stress, pair_stress
+from .sweeps import Sweep, sweep
 from .threads import set_thread_count, thread_count
 
-__all__ = ["Average", "Body", "ContactStress", "DiskError", "InputError", "LcpResult", "PairStress", "Run", "Scene",
-           "Simulation", "StepFailure", "StepReport", "average", "body_moments", "collision_stress", "combined",
+__all__ = ["Average", "Body", "ContactStress", "DiskError", "InputError", "LcpResult", "PairStress", "Recording", "Run", "Scene",
+           "Simulation", "StepFailure", "StepReport", "Sweep", "analysis", "average", "body_moments", "collision_stress", "combined",
            "contact_stress", "load", "orientation_stress", "pair_stress", "segment_distance", "set_thread_count", "solve_lcp",
-           "thread_count"]
+           "sweep", "thread_count"]

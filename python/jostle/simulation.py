@@ -9,6 +9,8 @@ import numpy as np
 from . import _jostle
 from ._arrays import whole_number, with_shape
 from ._jostle import DiskError, refuse
+from .own_columns import OwnColumns
+from .recording import Recording
 from .scene import Scene
 from .stress import orientation_stress
 
@@ -120,8 +122,8 @@ class Simulation:
 
     def _begin(self, core, motions):
         self._core = core
-        self._dtype = np.dtype([(column[0], float) for column in core.columns()])
-        self._rows_given = 0
+        self._recordings = []
+        self._own = OwnColumns([column[0] for column in core.columns()])
         for motion in [motions] if callable(motions) else motions:
             self.add_motion(motion)
 
@@ -146,6 +148,7 @@ class Simulation:
         True
         """
         self._core.step()
+        self._own.look(self)
         self._require_success()
         return self.report
 
@@ -178,7 +181,11 @@ class Simulation:
         before = self._core.row_count()
         while left > 0 and len(self) > 0 and not (to_the_end and self._core.is_complete()):
             portion = left if callback is None else min(left, every - self.clock.step % every)
-            self._core.run(portion, to_the_end)
+            portion = self._own.steps_to_next_row(self, portion)
+            try:
+                self._core.run(portion, to_the_end)
+            finally:
+                self._own.look(self)
             self._require_success()
             left -= portion
             if callback is not None and self.clock.step % every == 0:
@@ -284,17 +291,70 @@ class Simulation:
 
     @property
     def series(self):
-        """All rows since this object was made, as a structured array: the columns of series.csv.
+        """All rows since this object was made, as a structured array: the columns of series.csv, then your own.
 
         `columns` tells their units and meanings.
         """
-        return self._core.series().view(self._dtype)[:, 0]
+        return self._own.beside(self._core.series())
 
     @property
     def columns(self):
         """Of the series: name -> dict of unit, symbol, definition, sign."""
         return {name: dict(zip(("unit", "symbol", "definition", "sign"), rest))
-                for name, *rest in self._core.columns()}
+                for name, *rest in [*self._core.columns(), *self._own.described()]}
+
+    def add_column(self, name, function, unit="1", definition=""):
+        """Adds a column of your own to the series: function(simulation), a number, is taken at every row from now on.
+
+        name : str, an identifier that no column has yet; unit, definition : str, for `columns`
+
+        It is called between two steps, when the row is made, and may look at all of the simulation. NaN stands in the rows before. Its
+        mean over production, with the error bar of all other averages, is `summary()["columns"][name]`. What the function raises ends
+        `run` or `step`, and leaves NaN in that row. It is in no checkpoint: add it again after `resume`. Raises InputError for a name
+        that is taken or none, and for what the function returns unless it is a number.
+
+        >>> scene = Scene(box={"edges": [9, 9, 9]}, rods={"count": 9, "length": 1}, time={"production": 1})
+        >>> simulation = Simulation(scene)
+        >>> simulation.add_column("cos2", lambda simulation: (simulation.rods.axis[:, 2]**2).mean())
+        >>> simulation.run(20)["cos2"].shape
+        (2,)
+        """
+        self._own.add(self, name, function, unit, definition)
+
+    def record(self, file, every=None, *, replace=False):
+        """Writes the rods as they are now, and after every step whose number is a multiple of `every`, to a trajectory file.
+
+        Parameters
+        ----------
+        file : path
+            Its ending says the format: .h5, H5MD as trajectory.h5 of a run; .gsd for OVITO and freud, which needs the package gsd.
+        every : int, steps; by default as the scene says, about 100 frames (`output.trajectory_every`)
+        replace : bool, whether a file of that name may be written over
+
+        Returns
+        -------
+        Recording
+            Its `close()` makes the file; so do the end of a `with` and the end of the program. Until then the frames stand in a journal
+            beside it.
+
+        Raises
+        ------
+        InputError
+            For an unknown ending, a file that is there already, and gsd where it is not there.
+        DiskError
+            Also from the steps that follow; the simulation is then whole.
+
+        >>> import tempfile
+        >>> scene = Scene(box={"edges": [9, 9, 9]}, rods={"count": 9, "length": 1}, time={"production": 1})
+        >>> simulation = Simulation(scene)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     with simulation.record(folder + "/rods.h5", every=5) as recording:
+        ...         rows = simulation.run(20)
+        ...     len(recording), recording.path.exists()
+        (5, True)
+        """
+        self._recordings.append(Recording(self._core, file, every, replace))
+        return self._recordings[-1]
 
     def summary(self):
         """Averages of the rows so far with their error bars: a dict, the content of summary.json (docs/guide/results.md).
@@ -313,7 +373,7 @@ class Simulation:
         >>> bool(abs(Z["mean"] - 1.52) < 4 * Z["standard_error"])            # Carnahan and Starling
         True
         """
-        return json.loads(self._core.summary())
+        return self._own.in_summary(json.loads(self._core.summary()))
 
     @property
     def field(self):

@@ -8,7 +8,8 @@ import pytest
 
 import jostle
 
-MODULES = ("bodies", "contact", "lcp", "run", "scene", "simulation", "statistics", "stress", "threads")
+MODULES = ("bodies", "contact", "displacements", "lcp", "run", "scene", "simulation", "statistics", "stress", "structure", "sweeps",
+           "threads")
 
 
 @pytest.mark.parametrize("name", MODULES)
@@ -19,8 +20,8 @@ def test_examples_of(name):
     assert found.failed == 0
 
 
-@pytest.mark.parametrize("name", sorted(set(jostle.__all__) - {"Average", "ContactStress", "DiskError", "LcpResult", "PairStress", "Run",
-                                                               "StepFailure", "StepReport", "InputError"}))
+@pytest.mark.parametrize("name", sorted(set(jostle.__all__) - {"Average", "ContactStress", "DiskError", "LcpResult", "PairStress", "Recording",
+                                                               "Run", "StepFailure", "StepReport", "Sweep", "InputError", "analysis"}))
 def test_has_an_example(name):
     offered = getattr(jostle, name)
     assert offered.__doc__

@@ -1,0 +1,56 @@
+#include "bindings/simulation.hpp"
+#include "jostle/rods/space_filling_order.hpp"
+#include "jostle/run_files/h5md_writer.hpp"
+#include "jostle/run_files/version.hpp"
+#include "jostle/scene/scene_motion.hpp"
+#include "jostle/scene/units.hpp"
+#include "jostle/scene_file/scene_writer.hpp"
+
+namespace jostle::python {
+
+namespace {
+
+H5mdAttributes attributes_of(const Scene& scene) {
+    H5mdAttributes attributes;
+    attributes.version = program_version;
+    attributes.scene = attributes.resolved_scene = to_toml(scene);
+    attributes.seed = scene.seed;
+    attributes.command_line = "jostle.Simulation.record";
+    attributes.unit_system = scene.units.system == UnitSystem::micro ? "SI" : "reduced";
+    attributes.length_unit = unit_of(scene, dimension::length);
+    attributes.time_unit = unit_of(scene, dimension::time);
+    attributes.stress_unit = unit_of(scene, dimension::stress);
+    attributes.energy_unit = unit_of(scene, dimension::energy);
+    attributes.kT = thermal_energy(scene);
+    return attributes;
+}
+
+}  // namespace
+
+std::size_t SimulationInPython::record(const std::string& journal, std::uint64_t every) {
+    require_between_steps();
+    recordings_.push_back({TrajectoryJournal::create(journal), journal, every});
+    append_frame(recordings_.back());
+    return recordings_.size() - 1;
+}
+
+void SimulationInPython::append_frame(Recording& recording) {
+    if (!recording.journal) return;
+    recording.journal->append(simulation_.clock().step, simulation_.clock().time, simulation_.box(),
+                              in_order_of_ids(simulation_.rods()), {});
+    ++recording.frames;
+}
+
+std::size_t SimulationInPython::frames_of(std::size_t recording) const {
+    require_rest();
+    return recordings_.at(recording).frames;
+}
+
+void SimulationInPython::end_recording(std::size_t recording, const std::string& h5md) {
+    require_between_steps();
+    Recording& ended = recordings_.at(recording);
+    ended.journal.reset();
+    if (!h5md.empty()) write_h5md(ended.path, h5md, attributes_of(scene_.scene), &measurement_.series());
+}
+
+}  // namespace jostle::python

@@ -1,0 +1,68 @@
+"""Reading GSD: rods of `jostle export`, of `Simulation.record`, and of other programs that follow the same schema."""
+
+import os
+from collections.abc import Sequence
+from operator import index
+from pathlib import Path
+
+import numpy as np
+
+from ._jostle import refuse
+from .trajectory import Frame
+
+
+class GsdTrajectory(Sequence):
+    """Frames of a GSD file, read one by one when they are asked for; the box counts as periodic in all directions.
+
+    Rods lie along the z axis of their own; lengths come from log/particles/length, else from shapes with two vertices, else they are 0;
+    ids from log/particles/id, else they are 0, 1, 2, ...; times from log/time, else they are the steps.
+    """
+
+    def __init__(self, path):
+        try:
+            import gsd.hoomd
+        except ImportError:
+            refuse("", "", "cannot be read without the package gsd", suggestion="Run: apt-get install python3-gsd", file=str(path))
+        from .gsd_frames import name_in_ascii
+        self.path = Path(path)
+        try:
+            with name_in_ascii(self.path, os.O_RDONLY) as name:
+                self._file = gsd.hoomd.open(name, "rb")
+        except (OSError, RuntimeError) as error:
+            refuse("", "", f"cannot be read: {' '.join(str(error).split())}", file=str(path))
+
+    def __len__(self):
+        return len(self._file)
+
+    def __getitem__(self, k):
+        if isinstance(k, slice):
+            return [self[m] for m in range(*k.indices(len(self)))]
+        return self._frame(range(len(self))[index(k)])
+
+    def _frame(self, k):
+        shot = self._file[k]
+        rods, log, count = shot.particles, shot.log, shot.particles.N
+        edges = np.asarray(shot.configuration.box[:3], float)
+        if np.any(shot.configuration.box[3:]):
+            refuse("", "", f"frame {k} has a box that is not rectangular", file=str(self.path))
+        ids = np.asarray(log.get("particles/id", np.arange(count)), np.uint64)
+        order = np.argsort(ids, kind="stable")
+        time = float(np.ravel(log.get("time", shot.configuration.step))[0])
+        return Frame(int(shot.configuration.step), time, edges, (True, True, True), ids[order],
+                     (np.asarray(rods.position, float) + 0.5 * edges)[order], _axes(rods.orientation)[order],
+                     np.asarray(rods.image, np.int32)[order], _lengths(rods, log)[order], np.asarray(rods.diameter, float)[order])
+
+
+def _axes(quaternion):
+    """Where the quaternions (N, 4) turn +z to: unit vectors (N, 3)."""
+    w, x, y, z = np.asarray(quaternion, float).T
+    axis = np.stack((2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z), axis=1)
+    return axis / np.linalg.norm(axis, axis=1, keepdims=True)
+
+
+def _lengths(rods, log):
+    if "particles/length" in log:
+        return np.asarray(log["particles/length"], float)
+    of_type = [float(np.linalg.norm(np.subtract(*shape["vertices"]))) if len(shape.get("vertices", ())) == 2 else 0.0
+               for shape in rods.type_shapes or [{}] * len(rods.types)]
+    return np.array(of_type)[rods.typeid]
