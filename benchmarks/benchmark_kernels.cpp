@@ -7,8 +7,8 @@
 
 #include "jostle/contact/find_contacts.hpp"
 #include "jostle/contact/segment_distance.hpp"
+#include "jostle/contact/time_step_correction.hpp"
 #include "jostle/contact_problem/sweeper.hpp"
-#include "jostle/contact_problem/time_step_correction.hpp"
 #include "jostle/math/random.hpp"
 #include "jostle/motion/brownian_motion.hpp"
 #include "jostle/parallel/parallel_for.hpp"
@@ -48,25 +48,29 @@ struct Neighbours {
 /// The contact problem of a step, with all contacts that it came to have.
 struct PosedProblem {
     PosedProblem(const Crowd& crowd, std::size_t bodies)
-        : simulation(settled(crowd, bodies)), contacts(contacts_of_step(*simulation)) {
-        b.reserve(contacts.size());
-        for (const Contact& contact : contacts.contact) b.push_back(contact.room / time_step());
-    }
+        : simulation(settled(crowd, bodies)),
+          contacts(contacts_of_step(*simulation)),
+          problem(simulation->rods(), simulation->mobility(), contacts, gap_velocities(), time_step(),
+                  contact_compliance) {}
 
     static const Contacts& contacts_of_step(Simulation& simulation) {
         for (int k = 0; k < 10; ++k) simulation.step();  // copies begin to forget each other
         return simulation.contacts();
     }
+    std::vector<double> gap_velocities() const {
+        std::vector<double> b;
+        b.reserve(contacts.size());
+        for (const Contact& contact : contacts.contact) b.push_back(contact.shifted_gap / time_step());
+        return b;
+    }
     double time_step() const { return simulation->settings().time_step; }
-    double places_per_contact() const {
-        return static_cast<double>(contact_matrix.rods().size()) / static_cast<double>(contacts.size());
+    double rods_per_contact() const {
+        return static_cast<double>(problem.contact_matrix().rods().size()) / static_cast<double>(contacts.size());
     }
 
     std::unique_ptr<Simulation> simulation;
     const Contacts& contacts;
-    ContactMatrix contact_matrix{contacts, simulation->rods().id};
-    DelassusOperator matrix{contact_matrix, simulation->rods(), simulation->mobility(), contact_compliance};
-    std::vector<double> b;
+    ContactProblem problem;
 };
 
 void distance_of_segments(benchmark::State& state) {
@@ -104,28 +108,28 @@ void memory(benchmark::State& state) {
 
 /// What an application of A has to read and write at least, a contact: each contact and gamma twice (D and D^T), its
 /// places, its diagonal (compliance) and its rate; and its share of the rods' mobilities, forces and velocities.
-double bytes_of_application(const PosedProblem& problem) {
+double bytes_of_application(const PosedProblem& posed) {
     const double contact = 2 * (sizeof(Contact) + sizeof(ContactMatrix::Ends)) + 4 * sizeof(double);
-    const double place = sizeof(DelassusOperator::Rod) + 2 * sizeof(ContactForce) + 2 * sizeof(ContactVelocity);
-    return contact + place * problem.places_per_contact();
+    const double place = sizeof(MobileRod) + 2 * sizeof(ContactForce) + 2 * sizeof(ContactVelocity);
+    return contact + place * posed.rods_per_contact();
 }
 
 void application_of_matrix(benchmark::State& state, const Crowd& crowd, std::size_t bodies) {
-    const PosedProblem problem(crowd, bodies);
-    std::vector<double> gamma(problem.matrix.size(), 1.0), rates(problem.matrix.size());
+    const PosedProblem posed(crowd, bodies);
+    std::vector<double> gamma(posed.problem.matrix().size(), 1.0), rates(posed.problem.matrix().size());
     for (auto unused : state) {
-        problem.matrix.apply(gamma, rates);
+        posed.problem.matrix().apply(gamma, rates);
         benchmark::DoNotOptimize(rates.data());
     }
-    count_items(state, problem.matrix.size());
-    state.counters["bytes_each"] = bytes_of_application(problem);
+    count_items(state, posed.problem.matrix().size());
+    state.counters["bytes_each"] = bytes_of_application(posed);
 }
 
 /// What a sweep has to read and write at least, a contact: a single contact whole, of which the line with its force is
 /// written back, or its part of a pair that touches at several points; and its share of the rods' velocities.
-double bytes_of_sweep(const PosedProblem& problem) {
+double bytes_of_sweep(const PosedProblem& posed) {
     constexpr double line = 64;
-    const auto ends = problem.contact_matrix.ends();
+    const auto ends = posed.problem.contact_matrix().ends();
     const auto same_pair = [](const auto& a, const auto& b) { return a.i == b.i && a.j == b.j; };
     double bytes = 0.0;
     for (std::size_t l = 0; l < ends.size();) {
@@ -134,16 +138,16 @@ double bytes_of_sweep(const PosedProblem& problem) {
         bytes += static_cast<double>(next == l + 1 ? sizeof(SweptContact<float>) : sizeof(SweptPair)) + line;
         l = next;
     }
-    return bytes / static_cast<double>(ends.size()) + 2 * sizeof(Wide<float>) * problem.places_per_contact();
+    return bytes / static_cast<double>(ends.size()) + 2 * sizeof(Wide<float>) * posed.rods_per_contact();
 }
 
 void sweep_over_all(benchmark::State& state, const Crowd& crowd, std::size_t bodies) {
-    const PosedProblem problem(crowd, bodies);
-    const std::vector<double> start(problem.matrix.size(), 0.0);
-    Sweeper<float> sweeper({problem.matrix, problem.b, problem.time_step(), {}}, 1e-5, start);
+    const PosedProblem posed(crowd, bodies);
+    const std::vector<double> start(posed.problem.matrix().size(), 0.0);
+    Sweeper<float> sweeper(posed.problem, 1e-5, start);
     for (auto unused : state) benchmark::DoNotOptimize(sweeper.sweep(1.1, SweepOver::all));
-    count_items(state, problem.matrix.size());
-    state.counters["bytes_each"] = bytes_of_sweep(problem);
+    count_items(state, posed.problem.matrix().size());
+    state.counters["bytes_each"] = bytes_of_sweep(posed);
 }
 
 void build_neighbour_list(benchmark::State& state, const Crowd& crowd) {

@@ -23,12 +23,6 @@ std::int16_t in_normal_units(float component) {
     return static_cast<std::int16_t>(component * (1.0F / normal_unit));
 }
 
-/// What a pair's touching is at most.
-double most_touching(const Touching& touching, const PairName& name) {
-    const double i = touching.part[name.i], j = touching.part[name.j];
-    return name.i == name.j ? 2.0 * i : std::sqrt(i * i + j * j);
-}
-
 /// Pairs side by side, for vector instructions.
 struct Batch {
     static constexpr std::size_t size = 128;  ///< few enough to stay in the nearest cache
@@ -42,7 +36,7 @@ struct Batch {
 
 /// The gaps of pairs, and the width of the empty slab between the moved rods whose faces
 /// are normal to the line between the nearest points.
-JOSTLE_VECTORISED void glance_at(std::size_t count, Batch& batch) {
+JOSTLE_VECTORISED void find_bounds(std::size_t count, Batch& batch) {
     const auto& [x, y, z] = batch.between;
     const auto& [mx, my, mz] = batch.moved;
     const auto& [ux, uy, uz] = batch.axis_i;
@@ -67,46 +61,36 @@ JOSTLE_VECTORISED void glance_at(std::size_t count, Batch& batch) {
 
 }  // namespace
 
-PairGeometry pair_geometry_after(const Rods& rods, const Box& box, const PairName& name, const RodAfter& after) {
-    const auto [centre_i, axis_i] = after(name.i);
-    const auto [centre_j, axis_j] = after(name.j);
-    return {centre_j + box.displacement(name.image) - centre_i,
-            axis_i,
-            axis_j,
-            0.5 * rods.length[name.i],
-            0.5 * rods.length[name.j],
-            0.5 * (rods.diameter[name.i] + rods.diameter[name.j])};
-}
-
-double CollisionSearch::find(const Rods& rods, const Box& box, const RodMotion& motion, Contacts& contacts) {
+double CollisionSearch::find(const StepGeometry& step, Contacts& contacts) {
+    const Rods& rods = step.rods;
     reach_.resize(rods.size());
-    glance_.resize(rods.size());
+    bounds_.resize(rods.size());
     parallel_for(rods.size(), [&](std::size_t i) {
-        reach_[i] =
-            std::max(motion.displacement[i] + motion.touching.part[i] + motion.push_allowance, 0.5 * motion.range);
-        glance_[i] = {rods.centre[i],
+        const double shift = step.shift.part[i];
+        reach_[i] = std::max(step.displacement[i] + shift + step.ranges.displacement_limit, 0.5 * step.ranges.range);
+        bounds_[i] = {rods.centre[i],
                       in_float(rods.axis[i]),
-                      in_float(motion.centre[i] - rods.centre[i]),
-                      in_float(motion.axis[i]),
+                      in_float(step.known.centre[i] - rods.centre[i]),
+                      in_float(step.known.axis[i]),
                       static_cast<float>(0.5 * rods.length[i]),
                       static_cast<float>(0.5 * rods.diameter[i]),
-                      static_cast<float>(motion.touching.part[i] * motion.touching.part[i])};
+                      static_cast<float>(shift * shift)};
     });
-    neighbours_.set_travel(motion.travel);
-    neighbours_.update(rods, box, reach_);
+    neighbours_.set_travel(step.ranges.skin);
+    neighbours_.update(rods, step.box, reach_);
     blocks_.resize(neighbours_.block_count());
-    parallel_for_parts(blocks_.size(), [&](std::size_t block) { search_block(block, rods, box, motion); });
+    parallel_for_parts(blocks_.size(), [&](std::size_t block) { search_block(block, step); });
     contacts.clear();
     contacts.append(blocks_.size(), [&](std::size_t block) -> const Contacts& { return blocks_[block].contacts; });
     first_count_ = contacts.size();
-    added_.clear();
+    activated_.clear();
     return parallel_max(blocks_.size(), 0.0, [&](std::size_t block) { return blocks_[block].overlap; });
 }
 
-void CollisionSearch::search_block(std::size_t block, const Rods& rods, const Box& box, const RodMotion& motion) {
+void CollisionSearch::search_block(std::size_t block, const StepGeometry& step) {
     thread_local Found found;
     found.contacts.clear();
-    found.bystanders.clear();
+    found.inactive.clear();
     found.overlap = 0.0;
     std::array<std::uint32_t, Batch::size> rows;
     std::array<std::uint16_t, Batch::size> in_block;
@@ -114,24 +98,23 @@ void CollisionSearch::search_block(std::size_t block, const Rods& rods, const Bo
     Batch batch;
     Batch::Row touching;
     const auto sort_out = [&] {
-        glance_at(count, batch);
+        find_bounds(count, batch);
         for (std::size_t k = 0; k < count; ++k) {
             const float size = batch.half_i[k] + batch.half_j[k] + batch.radii[k];
             const float slack = batch.bound_after[k] - bound_error * size - touching[k];
-            const bool clear = batch.gap[k] - gap_error * batch.radii[k] > static_cast<float>(motion.range);
-            if (clear && slack >= static_cast<float>(motion.margin))
-                found.bystanders.push_back(
+            const bool clear = batch.gap[k] - gap_error * batch.radii[k] > static_cast<float>(step.ranges.range);
+            if (clear && slack >= static_cast<float>(step.ranges.activation_margin))
+                found.inactive.push_back(
                     {rows[k], slack, {batch.normal[0][k], batch.normal[1][k], batch.normal[2][k]}, in_block[k]});
             else
-                look_closely(rows[k], name_of(block, rows[k], in_block[k], rods), in_block[k], rods, box, motion,
-                             found);
+                narrow_phase(rows[k], key_of(block, rows[k], in_block[k], step.rods), in_block[k], step, found);
         }
         count = 0;
     };
     neighbours_.for_close_pairs(block, [&](std::uint32_t row, std::size_t pair) {
-        const auto& [i, j, image] = neighbours_.name(row, pair);
-        const RodGlance &a = glance_[i], &b = glance_[j];
-        const auto between = in_float(b.centre + box.displacement(image) - a.centre);
+        const auto& [i, j, image] = neighbours_.key(row, pair);
+        const RodBounds &a = bounds_[i], &b = bounds_[j];
+        const auto between = in_float(b.centre + step.box.displacement(image) - a.centre);
         rows[count] = row;
         in_block[count] = static_cast<std::uint16_t>(pair - block * NeighbourList::block_size);
         for (std::size_t k = 0; k < 3; ++k) {
@@ -145,70 +128,69 @@ void CollisionSearch::search_block(std::size_t block, const Rods& rods, const Bo
         batch.half_i[count] = a.half_length;
         batch.half_j[count] = b.half_length;
         batch.radii[count] = a.radius + b.radius;
-        touching[count] = std::sqrt((a.squared_touching + b.squared_touching) * (i == j ? 2.0F : 1.0F));
+        touching[count] = std::sqrt((a.squared_shift + b.squared_shift) * (i == j ? 2.0F : 1.0F));
         if (++count == Batch::size) sort_out();
     });
     sort_out();
     blocks_[block] = found;
 }
 
-void CollisionSearch::look_closely(std::uint32_t row, const PairName& name, std::uint16_t in_block, const Rods& rods,
-                                   const Box& box, const RodMotion& motion, Found& found) const {
-    const auto& [i, j, image] = name;
-    const Vec3 displacement = box.displacement(image);
-    const PairGeometry before = pair_geometry(rods, i, j, displacement, rods.centre, rods.axis);
+void CollisionSearch::narrow_phase(std::uint32_t row, const PairKey& key, std::uint16_t in_block,
+                                   const StepGeometry& step, Found& found) const {
+    const auto& [i, j, image] = key;
+    const Vec3 displacement = step.box.displacement(image);
+    const PairGeometry before = pair_geometry(step.rods, i, j, displacement, step.rods.centre, step.rods.axis);
     const NearestPoints nearest = nearest_points(before);
     const double distance = norm(nearest.separation), gap = distance - before.radii;
     found.overlap = std::max(found.overlap, -gap);
 
-    const PairGeometry after = pair_geometry(rods, i, j, displacement, motion.centre, motion.axis);
+    const PairGeometry after = pair_geometry(step.rods, i, j, displacement, step.known.centre, step.known.axis);
     const NearestPoints nearest_after = nearest_points(after);
     const double distance_after = norm(nearest_after.separation), gap_after = distance_after - after.radii;
     const bool passed_through = dot(nearest.separation, nearest_after.separation) <= 0.0;
-    const bool always = gap < motion.range || passed_through;
-    double touching = most_touching(motion.touching, name);
-    if (always || gap_after - touching < motion.margin) {
+    const bool always = gap < step.ranges.range || passed_through;
+    double shift = step.shift.bound(i, j);
+    if (always || gap_after - shift < step.ranges.activation_margin) {
         const std::size_t known = found.contacts.size();
-        touching = append(name, before, nearest, distance, after, motion, found.contacts);
-        if (always || gap_after - touching < motion.margin) return;
+        shift = append(key, before, nearest, distance, after, step, found.contacts);
+        if (always || gap_after - shift < step.ranges.activation_margin) return;
         found.contacts.resize(known);
     }
-    const double slack = gap_after - touching - 1e-6 * after.radii;
+    const double slack = gap_after - shift - 1e-6 * after.radii;
     // From the rod that the neighbour list names first to the other.
     const auto normal = in_float((row == i ? 1.0 : -1.0) / distance_after * nearest_after.separation);
-    found.bystanders.push_back({row,
-                                static_cast<float>(slack),
-                                {in_normal_units(normal[0]), in_normal_units(normal[1]), in_normal_units(normal[2])},
-                                in_block});
+    found.inactive.push_back({row,
+                              static_cast<float>(slack),
+                              {in_normal_units(normal[0]), in_normal_units(normal[1]), in_normal_units(normal[2])},
+                              in_block});
 }
 
-/// Appends the contacts of a pair, with their room. Returns the gap at which the first of them touches.
-double CollisionSearch::append(const PairName& name, const PairGeometry& before, const NearestPoints& nearest,
-                               double distance, const PairGeometry& after, const RodMotion& motion,
+/// Appends the contacts of a pair, with their shifted gaps. Returns the largest of their shifts.
+double CollisionSearch::append(const PairKey& key, const PairGeometry& before, const NearestPoints& nearest,
+                               double distance, const PairGeometry& after, const StepGeometry& step,
                                Contacts& contacts) const {
     const std::size_t first = contacts.size();
-    const auto own_image =
-        name.i == name.j && !motion.forces_at_start ? contact_with_own_image(name, after) : std::nullopt;
+    const auto own_image = key.i == key.j && !step.forces_at_start ? contact_with_own_image(key, after) : std::nullopt;
     if (own_image) {
-        contacts.push_back(*own_image, name.image, ContactFeature::nearest);
+        contacts.push_back(*own_image, key.image, ContactFeature::nearest);
         contacts.contact[first].gap = distance - before.radii;
-        const double gap = motion.touching.of(*own_image);
-        contacts.contact[first].room -= gap;
-        return gap;
+        const double shift = step.shift.exact(*own_image);
+        contacts.contact[first].shifted_gap -= shift;
+        return shift;
     }
-    append_contacts(name, before, nearest, distance, reach_[name.i] + reach_[name.j], contacts);
+    append_contacts(key, before, nearest, distance, reach_[key.i] + reach_[key.j], contacts);
     double largest = 0.0;
     for (std::size_t l = first; l < contacts.size(); ++l) {
         Contact& contact = contacts.contact[l];
-        const double gap = motion.touching.of(contact);
-        contact.room = gap_of_contact(contact, contacts.feature[l], after) - gap;
-        largest = std::max(largest, gap);
+        const double shift = step.shift.exact(contact);
+        contact.shifted_gap = gap_of_contact(contact, contacts.feature[l], after) - shift;
+        largest = std::max(largest, shift);
     }
     return largest;
 }
 
-bool CollisionSearch::is_contact(const PairName& name, const Contacts& contacts) const {
-    const PairName listed = in_order_of_rows(name);
+bool CollisionSearch::is_contact(const PairKey& key, const Contacts& contacts) const {
+    const PairKey listed = in_order_of_rows(key);
     const auto pair_at = [&](std::size_t l) { return in_order_of_rows(pair_of(contacts, l)); };
     std::size_t low = 0, high = first_count_;
     while (low < high) {
@@ -219,90 +201,98 @@ bool CollisionSearch::is_contact(const PairName& name, const Contacts& contacts)
             high = middle;
     }
     if (low < first_count_ && pair_at(low) == listed) return true;
-    return std::binary_search(added_.begin(), added_.end(), listed);
+    return std::binary_search(activated_.begin(), activated_.end(), listed);
 }
 
-/// Whether pushes could use up the slack of a bystander along the normal of its slab.
-bool CollisionSearch::may_meet(const Bystander& bystander, const Push& i, const Push& j) {
-    const float slack = bystander.slack;
+/// Whether displacements could use up the slack of an inactive pair along the normal of its slab.
+bool CollisionSearch::may_meet(const InactivePair& pair, const Displacement& i, const Displacement& j) {
     const float farthest = i.farthest + j.farthest;
-    const auto along = [&normal = bystander.normal](const std::array<float, 3>& a) {
+    const auto along = [&normal = pair.normal](const std::array<float, 3>& a) {
         return normal_unit * (static_cast<float>(normal[0]) * a[0] + static_cast<float>(normal[1]) * a[1] +
                               static_cast<float>(normal[2]) * a[2]);
     };
-    const float width = slack + along(j.centre) - along(i.centre) - std::fabs(along(i.end)) - std::fabs(along(j.end));
+    const float width =
+        pair.slack + along(j.centre) - along(i.centre) - std::fabs(along(i.end)) - std::fabs(along(j.end));
     return width < i.inaccuracy + j.inaccuracy + 2.0F * normal_unit * farthest;
 }
 
-std::vector<PairName> CollisionSearch::missed_pairs(const Rods& rods, const Box& box, const RodMotion& motion,
-                                                    const Contacts& contacts, std::span<const std::uint32_t> pushed,
-                                                    std::span<const Push> pushes, const RodAfter& after,
-                                                    bool thorough) {
-    const auto missed = [&](const PairName& name) {
-        const auto& [i, j, image] = name;
-        const PairGeometry pair = pair_geometry_after(rods, box, name, after);
-        const double gap = pair_gap(pair);
-        if (gap >= most_touching(motion.touching, name) || is_contact(name, contacts)) return false;
-        const PairGeometry before = pair_geometry(rods, i, j, box.displacement(image), rods.centre, rods.axis);
-        const NearestPoints nearest = nearest_points(before);
-        Contacts points;
-        return gap < append(name, before, nearest, norm(nearest.separation), pair, motion, points);
-    };
-    // Whether a pair is near enough to be among the bystanders does not depend on the history of the list if neither
-    // rod is pushed beyond the allowance; the others wait for the thorough search.
-    const auto within_allowance = [&](std::uint32_t row) { return pushes[row].farthest <= motion.push_allowance; };
-    std::vector<std::vector<PairName>> found(blocks_.size());
-    const auto look = [&](std::size_t block, const PairName& name) {
-        if (!thorough && !(within_allowance(name.i) && within_allowance(name.j))) return;
-        if (missed(name)) found[block].push_back(name);
+/// Whether a pair that is no contact touches at the end of the step.
+bool CollisionSearch::is_violated(const PairKey& key, const StepGeometry& step, const Contacts& contacts,
+                                  const EndConfiguration& end) const {
+    const auto& [i, j, image] = key;
+    const PairGeometry after = end.pair(step.rods, step.box, key);
+    const double gap = pair_gap(after);
+    if (gap >= step.shift.bound(i, j) || is_contact(key, contacts)) return false;
+    const PairGeometry before =
+        pair_geometry(step.rods, i, j, step.box.displacement(image), step.rods.centre, step.rods.axis);
+    const NearestPoints nearest = nearest_points(before);
+    Contacts points;
+    return gap < append(key, before, nearest, norm(nearest.separation), after, step, points);
+}
+
+std::vector<PairKey> CollisionSearch::violated_pairs(const StepGeometry& step, const Contacts& contacts,
+                                                     const EndConfiguration& end, bool thorough) {
+    displaced_.resize(step.rods.size());
+    parallel_for(displaced_.size(), [&](std::size_t i) {
+        const std::uint32_t local = end.local_index[i];
+        displaced_[i] = local == no_local_index ? 0.0F : end.displacement[local].farthest;
+    });
+    // Whether a pair is near enough to be among the inactive does not depend on the history of the list if neither rod
+    // is displaced beyond the limit; the others wait for the thorough search.
+    const double limit = step.ranges.displacement_limit;
+    const auto within_limit = [&](std::uint32_t row) { return displaced_[row] <= limit; };
+    std::vector<std::vector<PairKey>> found(blocks_.size());
+    const auto look = [&](std::size_t block, const PairKey& key) {
+        if (!thorough && !(within_limit(key.i) && within_limit(key.j))) return;
+        if (is_violated(key, step, contacts, end)) found[block].push_back(key);
     };
     if (!neighbours_.built_while_widened()) {
-        // Most bystanders have more slack than any push: those are passed over by this alone, in few bytes.
-        farthest_push_.resize(pushes.size());
-        parallel_for(pushes.size(), [&](std::size_t i) { farthest_push_[i] = pushes[i].farthest; });
+        // Most inactive pairs have more slack than any displacement: those are passed over by this alone, in few bytes.
         parallel_for_parts(blocks_.size(), [&](std::size_t block) {
-            for (const Bystander& bystander : blocks_[block].bystanders) {
-                const std::uint32_t j = neighbours_.partner(pair_number(block, bystander.in_block));
-                if (bystander.slack >= farthest_push_[bystander.i] + farthest_push_[j]) continue;
-                if (may_meet(bystander, pushes[bystander.i], pushes[j]))
-                    look(block, name_of(block, bystander.i, bystander.in_block, rods));
+            for (const InactivePair& pair : blocks_[block].inactive) {
+                const std::uint32_t j = neighbours_.partner(pair_number(block, pair.in_block));
+                if (pair.slack >= displaced_[pair.i] + displaced_[j]) continue;
+                if (may_meet(pair, end.displacement_of(pair.i), end.displacement_of(j)))
+                    look(block, key_of(block, pair.i, pair.in_block, step.rods));
             }
         });
     }
-    // Pairs that were passed over because no push was thought to go so far; and all, once the list is another one.
+    // Pairs that were passed over because no force was thought to take rods so far; and all, once the list is another.
     std::vector<NeighbourList::Overreach> farther;
     if (thorough) {
-        for (const std::uint32_t row : pushed)
-            if (!within_allowance(row)) farther.push_back({row, pushes[row].farthest - motion.push_allowance});
+        for (const std::uint32_t row : end.rows)
+            if (!within_limit(row)) farther.push_back({row, displaced_[row] - limit});
     }
-    if (!farther.empty()) neighbours_.widen(rods, box, reach_, farther);
+    if (!farther.empty()) neighbours_.widen(step.rods, step.box, reach_, farther);
     if (!farther.empty() || neighbours_.built_while_widened()) {
         found.resize(std::max(found.size(), neighbours_.block_count()));
         parallel_for_parts(neighbours_.block_count(), [&](std::size_t block) {
             neighbours_.for_close_pairs(block, [&](std::uint32_t i, std::size_t pair) {
-                if (!neighbours_.was_close(i, pair)) look(block, in_order_of_ids(neighbours_.name(i, pair), rods.id));
+                if (!neighbours_.was_close(i, pair))
+                    look(block, in_order_of_ids(neighbours_.key(i, pair), step.rods.id));
             });
         });
     }
-    std::vector<PairName> all;
+    std::vector<PairKey> all;
     for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
     return all;
 }
 
-void CollisionSearch::add(std::span<const PairName> missed, const Rods& rods, const Box& box, const RodMotion& motion,
-                          Contacts& contacts) {
-    for (const PairName& name : missed) {
-        const auto& [i, j, image] = name;
-        const Vec3 displacement = box.displacement(image);
-        const PairGeometry before = pair_geometry(rods, i, j, displacement, rods.centre, rods.axis);
-        const PairGeometry after = pair_geometry(rods, i, j, displacement, motion.centre, motion.axis);
+Contacts CollisionSearch::activate(std::span<const PairKey> violated, const StepGeometry& step) {
+    Contacts contacts;
+    for (const PairKey& key : violated) {
+        const auto& [i, j, image] = key;
+        const Vec3 displacement = step.box.displacement(image);
+        const PairGeometry before = pair_geometry(step.rods, i, j, displacement, step.rods.centre, step.rods.axis);
+        const PairGeometry after = pair_geometry(step.rods, i, j, displacement, step.known.centre, step.known.axis);
         const NearestPoints nearest = nearest_points(before);
-        append(name, before, nearest, norm(nearest.separation), after, motion, contacts);
-        added_.push_back(in_order_of_rows(name));
+        append(key, before, nearest, norm(nearest.separation), after, step, contacts);
+        activated_.push_back(in_order_of_rows(key));
     }
-    std::sort(added_.begin(), added_.end());
+    std::sort(activated_.begin(), activated_.end());
+    return contacts;
 }
 
 }  // namespace jostle

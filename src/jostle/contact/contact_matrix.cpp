@@ -8,26 +8,26 @@
 namespace jostle {
 
 ContactMatrix::ContactMatrix(const Contacts& contacts, std::span<const std::uint64_t> ids, Include include)
-    : contacts_(contacts), ids_(ids), place_of_(ids.size(), no_place) {
+    : contacts_(contacts), ids_(ids), local_index_(ids.size(), no_local_index) {
     if (include == Include::all_rods) {
         rows_.resize(ids.size());
-        for (std::uint32_t row = 0; row < ids.size(); ++row) rows_[row] = place_of_[row] = row;
+        for (std::uint32_t row = 0; row < ids.size(); ++row) rows_[row] = local_index_[row] = row;
     }
     extend();
 }
 
 void ContactMatrix::extend() {
-    const auto place_of = [this](std::uint32_t row) {
-        if (place_of_[row] == no_place) {
-            place_of_[row] = static_cast<std::uint32_t>(rows_.size());
+    const auto local_index_of = [this](std::uint32_t row) {
+        if (local_index_[row] == no_local_index) {
+            local_index_[row] = static_cast<std::uint32_t>(rows_.size());
             rows_.push_back(row);
         }
-        return place_of_[row];
+        return local_index_[row];
     };
     ends_.reserve(contacts_.size());
     for (std::size_t l = ends_.size(); l < contacts_.size(); ++l) {
-        const std::uint32_t i = place_of(contacts_.contact[l].i);
-        ends_.push_back({i, place_of(contacts_.contact[l].j)});
+        const std::uint32_t i = local_index_of(contacts_.contact[l].i);
+        ends_.push_back({i, local_index_of(contacts_.contact[l].j)});
     }
     begin_.clear();
 }
@@ -49,8 +49,8 @@ void ContactMatrix::list_sides() const {
     const auto key = [this](std::uint32_t side) {
         const Ends& ends = ends_[side / 2];
         const bool is_j = side % 2 == 1;
-        const PairName name = pair_of(contacts_, side / 2);
-        return std::tuple(id_of(is_j ? ends.i : ends.j), is_j ? name.turned().image : name.image, side);
+        const PairKey key_of_pair = pair_of(contacts_, side / 2);
+        return std::tuple(id_of(is_j ? ends.i : ends.j), is_j ? key_of_pair.turned().image : key_of_pair.image, side);
     };
     parallel_for(rows_.size(), [&](std::size_t k) {
         std::sort(sides_.begin() + begin_[k], sides_.begin() + begin_[k + 1],

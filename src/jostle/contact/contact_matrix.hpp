@@ -65,9 +65,8 @@ public:
 
     std::uint64_t id_of(std::uint32_t place) const { return ids_[rows_[place]]; }
 
-    /// The place of a row, or `no_place`.
-    std::uint32_t place_of(std::uint32_t row) const { return place_of_[row]; }
-    static constexpr std::uint32_t no_place = 0xFFFFFFFF;
+    /// (N) local index of each row, or `no_local_index`.
+    std::span<const std::uint32_t> local_index() const { return local_index_; }
 
     /// forces = D gamma, one a place; `gamma`: one force a contact, positive where the rods repel each other.
     void apply(std::span<const double> gamma, std::span<ContactForce> forces) const;
@@ -80,7 +79,7 @@ private:
 
     const Contacts& contacts_;
     std::span<const std::uint64_t> ids_;
-    std::vector<std::uint32_t> place_of_;  ///< (rods)
+    std::vector<std::uint32_t> local_index_;  ///< (N)
     std::vector<std::uint32_t> rows_;
     std::vector<Ends> ends_;
     /// Contacts of each place: 2 l where the rod is i of contact l, 2 l + 1 where it is j; in the order of the other

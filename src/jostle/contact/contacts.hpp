@@ -23,36 +23,39 @@ struct Contact {
     Vec3 normal;
     double arm_i = 0.0;
     double arm_j = 0.0;
-    double gap = 0.0;   ///< distance of the segments' points less (D_i + D_j)/2
-    double room = 0.0;  ///< the gap after the known motion of the step, less that at which they touch (CollisionSearch)
+    double gap = 0.0;          ///< distance of the segments' points less (D_i + D_j)/2
+    double shifted_gap = 0.0;  ///< the gap after the known motion of the step, less that at which they touch (GapShift)
 };
 
 /// Which rods meet, and in which image of j.
-struct PairName {
+struct PairKey {
     std::uint32_t i, j;
     Image image;
 
     /// The same pair as the other rod sees it.
-    PairName turned() const { return {j, i, {-image[0], -image[1], -image[2]}}; }
+    PairKey turned() const { return {j, i, {-image[0], -image[1], -image[2]}}; }
 
-    auto operator<=>(const PairName&) const = default;
+    auto operator<=>(const PairKey&) const = default;
 };
 
 /// The pair with the smaller id first: what is computed of it has the same bits wherever its rods stand in memory.
-inline PairName in_order_of_ids(const PairName& name, std::span<const std::uint64_t> ids) {
-    return ids[name.i] <= ids[name.j] ? name : name.turned();
+inline PairKey in_order_of_ids(const PairKey& key, std::span<const std::uint64_t> ids) {
+    return ids[key.i] <= ids[key.j] ? key : key.turned();
 }
 /// The pair with the smaller row first, as the neighbour list has it.
-inline PairName in_order_of_rows(const PairName& name) {
-    return name.i <= name.j ? name : name.turned();
+inline PairKey in_order_of_rows(const PairKey& key) {
+    return key.i <= key.j ? key : key.turned();
 }
+
+/// Of a rod without contacts: those that have some are numbered among themselves (ContactMatrix).
+inline constexpr std::uint32_t no_local_index = 0xFFFFFFFF;
 
 /// Which points a contact follows while the rods move.
 enum class ContactFeature : std::uint8_t {
-    nearest,   ///< the nearest points of the two segments
-    end_of_i,  ///< the end of segment i at arm_i, and the point of segment j nearest to it
-    end_of_j,  ///< the end of segment j at arm_j, and the point of segment i nearest to it
-    pushed,    ///< the points that are nearest once contact forces have pushed the rods (pushed_overlaps.hpp)
+    nearest,       ///< the nearest points of the two segments
+    end_of_i,      ///< the end of segment i at arm_i, and the point of segment j nearest to it
+    end_of_j,      ///< the end of segment j at arm_j, and the point of segment i nearest to it
+    relinearised,  ///< the points that are nearest where contact forces take the rods (relinearised_contacts.hpp)
 };
 
 /// Contacts found, in the order of the pairs' rows, of a pair the nearest points first; those added within a step come
@@ -76,6 +79,12 @@ struct Contacts {
         feature.push_back(new_feature);
     }
 
+    void append(const Contacts& more) {
+        contact.insert(contact.end(), more.contact.begin(), more.contact.end());
+        image.insert(image.end(), more.image.begin(), more.image.end());
+        feature.insert(feature.end(), more.feature.begin(), more.feature.end());
+    }
+
     /// Appends the contacts of part_of(0), ..., part_of(count - 1), one after the other.
     template <class PartOf>
     void append(std::size_t count, PartOf&& part_of) {
@@ -97,7 +106,7 @@ struct Contacts {
 };
 
 /// The pair that contact l belongs to.
-inline PairName pair_of(const Contacts& contacts, std::size_t l) {
+inline PairKey pair_of(const Contacts& contacts, std::size_t l) {
     return {contacts.contact[l].i, contacts.contact[l].j, contacts.image[l]};
 }
 

@@ -11,19 +11,19 @@ double find_contacts(const Rods& rods, const Box& box, const NeighbourList& neig
                      Contacts& contacts) {
     std::vector<Contacts> blocks(neighbours.block_count());
     std::vector<double> overlaps(blocks.size(), 0.0);
-    const auto look_at = [&](std::size_t block, const PairName& name) {
-        const auto& [i, j, image] = name;
+    const auto look_at = [&](std::size_t block, const PairKey& key) {
+        const auto& [i, j, image] = key;
         const PairGeometry geometry = pair_geometry(rods, i, j, box.displacement(image), rods.centre, rods.axis);
         const double range = reach[i] + reach[j];
         const NearestPoints nearest = nearest_points(geometry);
         const double distance = norm(nearest.separation);
         if (distance >= geometry.radii + range) return;
-        append_contacts(name, geometry, nearest, distance, range, blocks[block]);
+        append_contacts(key, geometry, nearest, distance, range, blocks[block]);
         overlaps[block] = std::max(overlaps[block], geometry.radii - distance);
     };
     parallel_for_parts(blocks.size(), [&](std::size_t block) {
         neighbours.for_close_pairs(block, [&](std::uint32_t i, std::size_t pair) {
-            look_at(block, in_order_of_ids(neighbours.name(i, pair), rods.id));
+            look_at(block, in_order_of_ids(neighbours.key(i, pair), rods.id));
         });
     });
     contacts.clear();

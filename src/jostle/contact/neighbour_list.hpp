@@ -51,8 +51,8 @@ public:
 
     /// A pair of row i, in its image at the last update: rods that have crossed a periodic face since building are
     /// accounted for.
-    PairName name(std::uint32_t i, std::size_t pair) const {
-        PairName now{i, j_[pair], images_[image_[pair]]};
+    PairKey key(std::uint32_t i, std::size_t pair) const {
+        PairKey now{i, j_[pair], images_[image_[pair]]};
         for (std::size_t k = 0; k < 3; ++k) now.image[k] += crossed_[now.j][k] - crossed_[i][k];
         return now;
     }

@@ -30,19 +30,19 @@ std::optional<OwnImageTouch> touch_of_own_image(const PairGeometry& pair) {
     return touch;
 }
 
-std::optional<Contact> contact_with_own_image(const PairName& name, const PairGeometry& pair) {
+std::optional<Contact> contact_with_own_image(const PairKey& key, const PairGeometry& pair) {
     const auto touch = touch_of_own_image(pair);
     if (!touch) return std::nullopt;
     const NearestPoints points = nearest_points(touch->at_touching);
     Contact contact;
-    contact.i = name.i;
-    contact.j = name.j;
+    contact.i = key.i;
+    contact.j = key.j;
     contact.normal = normalised(points.separation);
     contact.arm_i = points.s_i;
     contact.arm_j = points.s_j;
     const double along = dot(contact.normal, touch->at_touching.axis_i);
     const double gradient = std::fabs(points.s_j - points.s_i) * std::sqrt(std::max(0.0, 1.0 - along * along));
-    contact.room = gradient * touch->turn;
+    contact.shifted_gap = gradient * touch->turn;
     return contact;
 }
 

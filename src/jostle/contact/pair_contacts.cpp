@@ -63,16 +63,16 @@ EndPoints end_points(const PairGeometry& pair, const Point& nearest, double rang
 
 }  // namespace
 
-void append_contacts(const PairName& name, const PairGeometry& pair, const NearestPoints& points, double distance,
+void append_contacts(const PairKey& key, const PairGeometry& pair, const NearestPoints& points, double distance,
                      double range, Contacts& contacts) {
     const Point nearest{points.s_i, points.s_j, distance, points.separation, ContactFeature::nearest};
     const auto add = [&](const Point& point) {
         const Vec3 normal = contact_normal(point.separation, point.distance, pair);
         const double gap = point.distance - pair.radii;
-        contacts.push_back({name.i, name.j, normal, point.s_i, point.s_j, gap, gap}, name.image, point.feature);
+        contacts.push_back({key.i, key.j, normal, point.s_i, point.s_j, gap, gap}, key.image, point.feature);
     };
     const double squared_sine = squared_norm(cross(pair.axis_i, pair.axis_j));
-    const bool own_image = name.i == name.j;  // no contact point resists more than one: all open as the rod turns
+    const bool own_image = key.i == key.j;  // no contact point resists more than one: all open as the rod turns
     if (own_image || pair.half_i == 0.0 || pair.half_j == 0.0 ||
         squared_sine > largest_sine_with_ends * largest_sine_with_ends) {
         add(nearest);
@@ -91,7 +91,7 @@ double gap_of_contact(const Contact& contact, ContactFeature feature, const Pair
     Vec3 separation;
     switch (feature) {
         case ContactFeature::nearest:
-        case ContactFeature::pushed:
+        case ContactFeature::relinearised:
             separation = nearest_points(pair).separation;
             break;
         case ContactFeature::end_of_i:

@@ -52,7 +52,7 @@ inline bool pair_overlaps(const PairGeometry& pair) {
 ///          o  nearest      o               make A singular); of a rod and its image the nearest points alone
 ///
 /// `nearest`: of `pair`; `distance`: between those points.
-void append_contacts(const PairName& name, const PairGeometry& pair, const NearestPoints& nearest, double distance,
+void append_contacts(const PairKey& key, const PairGeometry& pair, const NearestPoints& nearest, double distance,
                      double range, Contacts& contacts);
 
 /// The gap at a contact when its rods lie as in `pair`: its points follow their feature, and rods that have passed

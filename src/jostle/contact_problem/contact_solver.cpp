@@ -11,55 +11,55 @@ namespace jostle {
 
 namespace {
 
-LcpResult solve_lcp(const LcpProblem& problem, SolverMethod method, const LcpSettings& settings,
-                    std::span<const double> start) {
-    switch (method) {
-        case SolverMethod::bbpgd:
-            return solve_bbpgd(problem, settings, start);
-        case SolverMethod::apgd:
-            return solve_apgd(problem, settings, start);
-        case SolverMethod::minimum_map_newton:
-            return solve_minimum_map_newton(problem, settings, start);
-        default:
-            return solve_adaptive_bb(problem, settings, start);
+/// The methods of lcp/, which know nothing of rods: every stop is at a solution, and the next solution begins from it.
+class LcpContactSolver final : public ContactSolver {
+public:
+    LcpContactSolver(const ContactProblem& problem, SolverMethod method, const LcpSettings& settings)
+        : ContactSolver(problem, settings), method_(method) {}
+
+    bool run_to_next_stop() override {
+        const bool first = outcome_.solves == 0;
+        if (!problem_has_grown() && !first) return false;
+        const bool from_zero = first && problem_.start().empty();
+        LcpResult result = solve(from_zero ? std::span<const double>{} : solution_.gamma);
+        solution_.gamma = std::move(result.solution);
+        problem_.complete(solution_);
+        outcome_ = {result.status, result.residual, outcome_.iterations + result.iterations, outcome_.solves + 1};
+        at_solution_ = outcome_.status == LcpStatus::converged;
+        return at_solution_;
     }
-}
+
+private:
+    LcpResult solve(std::span<const double> start) const {
+        switch (method_) {
+            case SolverMethod::bbpgd:
+                return solve_bbpgd(problem_.lcp(), settings_, start);
+            case SolverMethod::apgd:
+                return solve_apgd(problem_.lcp(), settings_, start);
+            case SolverMethod::minimum_map_newton:
+                return solve_minimum_map_newton(problem_.lcp(), settings_, start);
+            default:
+                return solve_adaptive_bb(problem_.lcp(), settings_, start);
+        }
+    }
+
+    SolverMethod method_;
+};
 
 }  // namespace
 
-void ContactSolution::resize(const ContactMatrix& contact_matrix) {
-    gamma.resize(contact_matrix.size(), 0.0);
-    rods.assign(contact_matrix.rods().begin(), contact_matrix.rods().end());
-    forces.resize(rods.size());
-    velocities.resize(rods.size());
-}
-
-SolverOutcome solve_contact_problem(const ContactProblem& problem, SolverMethod method, const LcpSettings& settings,
-                                    ContactSolution& solution) {
-    const DelassusOperator& matrix = problem.matrix;
-    solution = {};
-    solution.gamma = problem.start;
+std::unique_ptr<ContactSolver> make_contact_solver(const ContactProblem& problem, SolverMethod method,
+                                                   const LcpSettings& settings) {
+    const bool couples_rods = problem.matrix().couples_rods();
     if (method == SolverMethod::automatic)
-        method = matrix.couples_rods() ? SolverMethod::adaptive_bb : SolverMethod::projected_sor;
-    if (method == SolverMethod::projected_sor) {
-        if (matrix.couples_rods())
-            throw InputError({.key = "solver.method",
-                              .value = "\"projected_sor\"",
-                              .problem = "this method needs a mobility that does not couple rods",
-                              .allowed = "\"auto\", \"adaptive_bb\", \"bbpgd\", \"apgd\", \"minimum_map_newton\""});
-        return solve_projected_sor(problem, settings, solution);
-    }
-    SolverOutcome outcome;
-    do {
-        solution.resize(matrix.contact_matrix());
-        const bool from_zero = outcome.solves == 0 && problem.start.empty();
-        LcpResult result =
-            solve_lcp(problem.lcp(), method, settings, from_zero ? std::span<const double>{} : solution.gamma);
-        solution.gamma = std::move(result.solution);
-        matrix.velocities(solution.gamma, solution.forces, solution.velocities);
-        outcome = {result.status, result.residual, outcome.iterations + result.iterations, outcome.solves + 1};
-    } while (outcome.status == LcpStatus::converged && problem.add_missed && problem.add_missed(solution, true));
-    return outcome;
+        method = couples_rods ? SolverMethod::adaptive_bb : SolverMethod::projected_sor;
+    if (method != SolverMethod::projected_sor) return std::make_unique<LcpContactSolver>(problem, method, settings);
+    if (couples_rods)
+        throw InputError({.key = "solver.method",
+                          .value = "\"projected_sor\"",
+                          .problem = "this method needs a mobility that does not couple rods",
+                          .allowed = "\"auto\", \"adaptive_bb\", \"bbpgd\", \"apgd\", \"minimum_map_newton\""});
+    return std::make_unique<ProjectedSor>(problem, settings);
 }
 
 }  // namespace jostle

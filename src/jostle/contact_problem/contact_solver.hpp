@@ -1,53 +1,64 @@
 #pragma once
 
-#include <functional>
-#include <vector>
+#include <memory>
 
-#include "jostle/contact_problem/delassus_operator.hpp"
+#include "jostle/contact_problem/contact_problem.hpp"
+#include "jostle/contact_problem/contact_solution.hpp"
 #include "jostle/contact_problem/solver_method.hpp"
-#include "jostle/lcp/lcp_problem.hpp"
 
 namespace jostle {
 
-/// Contact forces, and what they do to the rods that have contacts (places of the ContactMatrix).
-struct ContactSolution {
-    std::vector<double> gamma;                ///< (contacts) >= 0
-    std::vector<std::uint32_t> rods;          ///< (places) rows
-    std::vector<ContactForce> forces;         ///< (places) D gamma
-    std::vector<ContactVelocity> velocities;  ///< (places) M D gamma
-
-    /// As many places and contacts as the matrix has; new ones are 0.
-    void resize(const ContactMatrix& contact_matrix);
-};
-
-/// The contact problem of a step. It may grow while it is solved: contacts that only forces bring about are not known
-/// before.
-struct ContactProblem {
-    const DelassusOperator& matrix;
-    const std::vector<double>& constant;  ///< (contacts) b
-    double time_step;
-    /// Given forces and velocities, appends contacts that were missed (to matrix and b), and says whether there were
-    /// any. `final`: the search must be thorough, the result will stand. May be empty.
-    std::function<bool(const ContactSolution& solution, bool final)> add_missed;
-    std::vector<double> start = {};  ///< (contacts) gamma to begin from; empty: from 0
-
-    LcpProblem lcp() const { return {matrix, constant, time_step}; }
-};
-
-/// How a solver ended.
-struct SolverOutcome {
-    LcpStatus status = LcpStatus::converged;
-    double residual = 0.0;
-    std::uint64_t iterations = 0;
-    std::uint64_t solves = 0;  ///< 1, and one for every time that contacts were added to a solution
-};
-
-/// Solves a contact problem by the method asked for; "auto" is projected SOR where the mobility does not couple rods,
-/// else adaptive Barzilai-Borwein descent.
+/// Seeks the forces of a contact problem. It stops where the problem may grow: contacts that only forces bring about
+/// are not known before.
 ///
-/// Every method stops at the same residual, verified over all contacts, so results agree to the tolerance. Throws
-/// InputError if projected SOR is asked for with a mobility that couples rods.
-SolverOutcome solve_contact_problem(const ContactProblem& problem, SolverMethod method, const LcpSettings& settings,
-                                    ContactSolution& solution);
+///     const auto solver = make_contact_solver(problem, method, settings);
+///     while (solver->run_to_next_stop()) problem.append(violated pairs ...);
+///     if (solver->outcome().status == LcpStatus::converged) use(solver->solution());
+///
+/// Every method stops at the same residual, verified over all contacts, so results agree to the tolerance.
+class ContactSolver {
+public:
+    virtual ~ContactSolver() = default;
+
+    /// Goes on to the next stop, with all contacts that the problem has now. Returns whether there is one: after
+    /// `at_solution`, only if the problem has grown.
+    virtual bool run_to_next_stop() = 0;
+
+    /// Whether this stop is at a solution, which stands unless the problem grows. If not, only the velocities of the
+    /// candidate are up to date.
+    bool at_solution() const { return at_solution_; }
+
+    const ContactSolution& solution() const { return solution_; }
+    const SolverOutcome& outcome() const { return outcome_; }
+
+    /// The solution, once the solver has ended.
+    ContactSolution take_solution() && { return std::move(solution_); }
+
+protected:
+    ContactSolver(const ContactProblem& problem, const LcpSettings& settings) : problem_(problem), settings_(settings) {
+        solution_.gamma = problem.start();
+        solution_.resize(problem.contact_matrix());
+    }
+
+    /// Whether contacts have been added to the problem since the last call: the solution is then as large again.
+    bool problem_has_grown() {
+        if (solution_.gamma.size() == problem_.size()) return false;
+        solution_.resize(problem_.contact_matrix());
+        return true;
+    }
+
+    const ContactProblem& problem_;
+    const LcpSettings& settings_;
+    ContactSolution solution_;
+    SolverOutcome outcome_;
+    bool at_solution_ = false;
+};
+
+/// The solver of a method; "auto" is projected SOR where the mobility does not couple rods, else adaptive
+/// Barzilai-Borwein descent. Holds references to problem and settings.
+///
+/// Throws InputError if projected SOR is asked for with a mobility that couples rods.
+std::unique_ptr<ContactSolver> make_contact_solver(const ContactProblem& problem, SolverMethod method,
+                                                   const LcpSettings& settings);
 
 }  // namespace jostle

@@ -4,29 +4,6 @@
 
 namespace jostle {
 
-namespace {
-
-using Rod = DelassusOperator::Rod;
-
-/// normal.(velocity of the rod's point at `arm`) for a unit force along `normal` at that point.
-double point_mobility(const Rod& rod, const Vec3& normal, double arm) {
-    const double along = dot(normal, rod.axis);
-    const double across_squared = squared_norm(normal) - along * along;
-    const RodMobility& m = rod.mobility;
-    return m.parallel * along * along + (m.perpendicular + arm * arm * m.rotational) * across_squared;
-}
-
-}  // namespace
-
-double gap_mobility(const Contact& contact, const Rod& i, const Rod& j) {
-    if (contact.i == contact.j) {  // own image: the centre stays, only turning opens the gap
-        const double along = dot(contact.normal, i.axis);
-        const double lever = contact.arm_j - contact.arm_i;
-        return lever * lever * i.mobility.rotational * (squared_norm(contact.normal) - along * along);
-    }
-    return point_mobility(i, contact.normal, contact.arm_i) + point_mobility(j, contact.normal, contact.arm_j);
-}
-
 DelassusOperator::DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods, const Mobility& mobility,
                                    double compliance)
     : contact_matrix_(contact_matrix), all_rods_(rods), mobility_(mobility), compliance_(compliance) {

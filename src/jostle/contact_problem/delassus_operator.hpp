@@ -1,6 +1,7 @@
 #pragma once
 
 #include "jostle/contact/contact_matrix.hpp"
+#include "jostle/contact/gap_mobility.hpp"
 #include "jostle/lcp/linear_operator.hpp"
 #include "jostle/mobility/mobility.hpp"
 
@@ -30,12 +31,7 @@ public:
 
     const ContactMatrix& contact_matrix() const { return contact_matrix_; }
 
-    /// A rod with contacts: its axis, and its own mobility.
-    struct Rod {
-        Vec3 axis;
-        RodMobility mobility;
-    };
-    std::span<const Rod> rods() const { return rods_; }  ///< (places)
+    std::span<const MobileRod> rods() const { return rods_; }  ///< (n) those with contacts
     bool couples_rods() const { return mobility_.couples_rods(); }
 
     /// A gamma, from M D gamma.
@@ -53,18 +49,15 @@ private:
     const Rods& all_rods_;
     const Mobility& mobility_;
     double compliance_;
-    std::vector<Rod> rods_;
+    std::vector<MobileRod> rods_;
     std::vector<double> diagonal_;
     mutable std::vector<ContactForce> forces_;         ///< (places) scratch
     mutable std::vector<ContactVelocity> velocities_;  ///< (places) scratch
 };
 
-/// (D^T M D)_ll of a contact between these two rods: how fast a force on it alone opens its gap.
-double gap_mobility(const Contact& contact, const DelassusOperator::Rod& i, const DelassusOperator::Rod& j);
-
 /// The answer of one rod that feels its own drag only: U = [parallel n n + perpendicular (I - n n)] F, and W = Omega x
 /// n = rotational (I - n n) lever.
-inline ContactVelocity velocity_of(const DelassusOperator::Rod& rod, const Vec3& force, const Vec3& lever) {
+inline ContactVelocity velocity_of(const MobileRod& rod, const Vec3& force, const Vec3& lever) {
     const RodMobility& m = rod.mobility;
     return {m.perpendicular * force + ((m.parallel - m.perpendicular) * dot(rod.axis, force)) * rod.axis,
             m.rotational * (lever - dot(rod.axis, lever) * rod.axis)};

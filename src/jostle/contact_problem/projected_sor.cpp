@@ -1,6 +1,8 @@
 #include "jostle/contact_problem/projected_sor.hpp"
 
 #include <cmath>
+#include <type_traits>
+#include <utility>
 
 #include "jostle/contact_problem/sweeper.hpp"
 #include "jostle/parallel/parallel_for.hpp"
@@ -28,111 +30,154 @@ constexpr std::uint64_t early_search = 6;
 /// Every so many sweeps it is asked whether to go on.
 constexpr std::uint64_t sweeps_between_questions = 4;
 
-/// The sweeps of a solution, with what is stored in Real. Ends when solved, at the limit of sweeps, or, if
-/// `most_failures` is above 0, when so many verifications have found it too large although the sweeps stood still.
+}  // namespace
+
+/// The sweeps of a solution, with what is stored in Real.
 template <class Real>
-class Solver {
+class ProjectedSor::Sweeps {
 public:
-    Solver(const ContactProblem& problem, const LcpSettings& settings, ContactSolution& solution)
+    enum class End {
+        candidate,  ///< forces that still change: violated pairs are looked for early
+        solution,   ///< of the problem as it is
+        lost,       ///< not finite, or interrupted
+        given_up,   ///< no sweep is left, or verifications have found too large a residual although the sweeps stood
+                    ///< still
+    };
+
+    /// `max_failures`: so many such verifications; 0: any number. `verify_first`: before any sweep.
+    Sweeps(const ContactProblem& problem, const LcpSettings& settings, ContactSolution& solution,
+           SolverOutcome& outcome, int max_failures, bool verify_first)
         : problem_(problem),
           settings_(settings),
           solution_(solution),
+          outcome_(outcome),
+          max_failures_(max_failures),
+          verify_first_(verify_first),
+          warm_(!problem.start().empty()),
           sweeper_(problem, settings.tolerance, solution.gamma) {
         sweeper_.refresh(solution_);
     }
 
-    /// Whether nothing is left to be done: solved, and no contact missed; or lost, or interrupted.
-    bool solve(SolverOutcome& outcome, int most_failures) {
-        const bool warm = !problem_.start.empty();
-        const std::uint64_t period = warm ? full_sweep_every_if_warm : full_sweep_every;
-        bool look_at_all = false;
-        std::uint64_t next_verification = 0;
-        for (int failures = 0; outcome.iterations < settings_.max_iterations;) {
-            const bool all = look_at_all || outcome.iterations % period == period - 1;
-            const double omega = relaxation(outcome.iterations, problem_.matrix.compliant(), warm);
-            const double change = problem_.time_step * sweeper_.sweep(omega, all ? SweepOver::all : SweepOver::awake);
-            ++outcome.iterations;
-            look_at_all = false;
-            if (outcome.iterations % sweeps_between_questions == 0 && settings_.is_interrupted()) {
-                outcome.status = LcpStatus::interrupted;
-                return true;
+    /// Goes on after the last end; `grown`: the problem has more contacts since.
+    End run(bool grown) {
+        if (grown) sweeper_.extend();
+        bool sweep_is_judged = !std::exchange(at_candidate_, false) || grown;
+        if (std::exchange(verify_first_, false) && verify()) return verified_end();
+        for (;;) {
+            if (sweep_is_judged) {
+                if (outcome_.iterations >= settings_.max_iterations) return End::given_up;
+                sweep();
+                if (is_interrupted()) return End::lost;
+                if (is_time_to_search()) return End::candidate;
             }
-            if (outcome.iterations >= next_search_) {
-                next_search_ = 3 * outcome.iterations;
-                sweeper_.read_velocities(solution_.velocities);
-                if (add_missed(false)) continue;
-            }
-            // The residual is near the last change; it is computed where that is small, and now and then for the
-            // paper's norm.
-            const bool small = settings_.residual == LcpResidual::length ? !(change > settings_.tolerance)
-                                                                         : outcome.iterations >= next_verification;
-            if (!small && outcome.iterations < settings_.max_iterations) continue;
-            if (verified(outcome)) return true;
+            sweep_is_judged = true;
+            if (!may_be_solved()) continue;
+            const bool decided = verify();
             // What rests may have been left too long: that is no failure of the sweeps.
-            const bool failed = outcome.status != LcpStatus::converged && (all || !warm);
-            if (failed && ++failures == most_failures) return false;
-            look_at_all = true;
-            next_verification = outcome.iterations + 5;
+            const bool failed = !decided && (over_all_ || !warm_);
+            if (failed && ++failures_ == max_failures_) return End::given_up;
+            look_at_all_ = true;
+            next_verification_ = outcome_.iterations + 5;
+            if (decided) return verified_end();
         }
-        return false;
     }
 
-    /// The same for the solution as it is, without a sweep.
-    bool verified(SolverOutcome& outcome) {
-        verify(outcome);
-        if (outcome.status == LcpStatus::not_finite) return true;
-        if (outcome.status != LcpStatus::converged) return false;
-        ++outcome.solves;
-        return !add_missed(true);
-    }
-
-    /// Residual and status, over all contacts, from gamma alone.
-    void verify(SolverOutcome& outcome) {
+    /// Residual and status, over all contacts, from gamma alone. Returns whether the status decides: solved, or not
+    /// finite.
+    bool verify() {
         sweeper_.refresh(solution_);
         LcpResult result;
-        result.velocity.resize(problem_.matrix.size());
-        problem_.matrix.rates(solution_.velocities, solution_.gamma, result.velocity);
-        parallel_for(result.velocity.size(), [&](std::size_t l) { result.velocity[l] += problem_.constant[l]; });
+        result.velocity.resize(problem_.size());
+        problem_.matrix().rates(solution_.velocities, solution_.gamma, result.velocity);
+        parallel_for(result.velocity.size(), [&](std::size_t l) { result.velocity[l] += problem_.constant()[l]; });
         result.solution.swap(solution_.gamma);
         result.residual = lcp_residual(problem_.lcp(), settings_.residual, result.solution, result.velocity);
-        outcome.status = lcp_status(problem_.lcp(), settings_, result);
-        outcome.residual = result.residual;
+        outcome_.status = lcp_status(problem_.lcp(), settings_, result);
+        outcome_.residual = result.residual;
         result.solution.swap(solution_.gamma);
+        return outcome_.status == LcpStatus::converged || outcome_.status == LcpStatus::not_finite;
     }
 
 private:
-    bool add_missed(bool final) {
-        if (!problem_.add_missed || !problem_.add_missed(solution_, final)) return false;
-        solution_.resize(problem_.matrix.contact_matrix());
-        sweeper_.extend();
+    void sweep() {
+        const std::uint64_t period = warm_ ? full_sweep_every_if_warm : full_sweep_every;
+        over_all_ = std::exchange(look_at_all_, false) || outcome_.iterations % period == period - 1;
+        const double omega = relaxation(outcome_.iterations, problem_.matrix().compliant(), warm_);
+        change_ = problem_.time_step() * sweeper_.sweep(omega, over_all_ ? SweepOver::all : SweepOver::awake);
+        ++outcome_.iterations;
+    }
+
+    bool is_interrupted() {
+        if (outcome_.iterations % sweeps_between_questions != 0 || !settings_.is_interrupted()) return false;
+        outcome_.status = LcpStatus::interrupted;
         return true;
+    }
+
+    bool is_time_to_search() {
+        if (outcome_.iterations < next_search_) return false;
+        next_search_ = 3 * outcome_.iterations;
+        sweeper_.read_velocities(solution_.velocities);
+        at_candidate_ = true;
+        return true;
+    }
+
+    /// The residual is near the last change; it is computed where that is small, and now and then for the paper's norm.
+    bool may_be_solved() const {
+        if (outcome_.iterations >= settings_.max_iterations) return true;
+        return settings_.residual == LcpResidual::length ? !(change_ > settings_.tolerance)
+                                                         : outcome_.iterations >= next_verification_;
+    }
+
+    End verified_end() {
+        if (outcome_.status == LcpStatus::not_finite) return End::lost;
+        ++outcome_.solves;
+        return End::solution;
     }
 
     const ContactProblem& problem_;
     const LcpSettings& settings_;
     ContactSolution& solution_;
+    SolverOutcome& outcome_;
+    int max_failures_, failures_ = 0;
+    bool verify_first_, warm_;
     Sweeper<Real> sweeper_;
-    std::uint64_t next_search_ = early_search;
+    std::uint64_t next_search_ = early_search, next_verification_ = 0;
+    bool at_candidate_ = false, look_at_all_ = false;
+    bool over_all_ = false;  ///< the last sweep was
+    double change_ = 0.0;    ///< of a gap by the last sweep, at most
 };
 
-}  // namespace
-
-SolverOutcome solve_projected_sor(const ContactProblem& problem, const LcpSettings& settings,
-                                  ContactSolution& solution) {
-    SolverOutcome outcome;
-    solution.resize(problem.matrix.contact_matrix());
-    const auto& b = problem.constant;
+ProjectedSor::ProjectedSor(const ContactProblem& problem, const LcpSettings& settings)
+    : ContactSolver(problem, settings) {
+    const auto& b = problem.constant();
     const double deepest = parallel_max(b.size(), 0.0, [&](std::size_t l) { return -b[l]; });
-    const bool in_float = settings.residual == LcpResidual::length && std::isfinite(deepest) &&
-                          settings.tolerance > finest_in_float * problem.time_step * deepest;
-    if (in_float) {
-        Solver<float> solver(problem, settings, solution);
-        if (deepest == 0.0 && solver.verified(outcome)) return outcome;
-        if (solver.solve(outcome, patience_with_float)) return outcome;
+    if (settings.residual == LcpResidual::length && std::isfinite(deepest) &&
+        settings.tolerance > finest_in_float * problem.time_step() * deepest)
+        in_float_ = std::make_unique<Sweeps<float>>(problem, settings, solution_, outcome_, patience_with_float,
+                                                    deepest == 0.0);
+}
+
+ProjectedSor::~ProjectedSor() = default;
+
+bool ProjectedSor::run_to_next_stop() {
+    const bool grown = problem_has_grown();
+    if (std::exchange(at_solution_, false) && !grown) return false;
+    const auto run = [&](auto& sweeps, bool with_new) {
+        using End = typename std::remove_reference_t<decltype(sweeps)>::End;
+        const End end = sweeps.run(with_new);
+        at_solution_ = end == End::solution;
+        return std::pair{at_solution_ || end == End::candidate, end == End::given_up};
+    };
+    if (in_float_) {
+        const auto [stopped, given_up] = run(*in_float_, grown);
+        if (!given_up) return stopped;
+        in_float_.reset();
     }
-    Solver<double> solver(problem, settings, solution);
-    if (!solver.verified(outcome) && !solver.solve(outcome, 0)) solver.verify(outcome);
-    return outcome;
+    const bool known = in_double_ != nullptr;
+    if (!known) in_double_ = std::make_unique<Sweeps<double>>(problem_, settings_, solution_, outcome_, 0, true);
+    const auto [stopped, given_up] = run(*in_double_, known && grown);
+    if (given_up) in_double_->verify();
+    return stopped;
 }
 
 }  // namespace jostle

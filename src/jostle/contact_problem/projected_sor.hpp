@@ -4,7 +4,7 @@
 
 namespace jostle {
 
-/// Projected successive over-relaxation on the rods' velocities: for mobilities that do not couple rods.
+/// Projected successive over-relaxation (SOR) on the rods' velocities: for mobilities that do not couple rods.
 ///
 /// The velocities V = M D gamma are kept up to date, and the contacts of one pair after another are solved for the
 /// velocities as they are (a pair may touch at up to three points, which are nearly dependent, so these are solved
@@ -19,9 +19,22 @@ namespace jostle {
 /// same result.
 ///
 /// Only contacts that push, or are about to, take part in most sweeps (Sweeper). Before the result is called solved,
-/// forces and velocities are computed anew from gamma, and the residual over all contacts from them. Missed contacts
-/// are asked for now and then while sweeps go on, and with every solution. The outcome's iterations are sweeps.
-SolverOutcome solve_projected_sor(const ContactProblem& problem, const LcpSettings& settings,
-                                  ContactSolution& solution);
+/// forces and velocities are computed anew from gamma, and the residual over all contacts from them. It stops at a
+/// candidate now and then while sweeps go on, and at every solution. The outcome's iterations are sweeps.
+///
+/// Sweeps begin in float where that is fine enough for the tolerance; double takes over where it is not.
+class ProjectedSor final : public ContactSolver {
+public:
+    ProjectedSor(const ContactProblem& problem, const LcpSettings& settings);
+    ~ProjectedSor() override;
+    bool run_to_next_stop() override;
+
+private:
+    template <class Real>
+    class Sweeps;
+
+    std::unique_ptr<Sweeps<float>> in_float_;
+    std::unique_ptr<Sweeps<double>> in_double_;
+};
 
 }  // namespace jostle

@@ -29,11 +29,11 @@ bool awake_at_first(const SweptPair&) {
 
 template <class Real>
 Sweeper<Real>::Sweeper(const ContactProblem& problem, double tolerance, const std::vector<double>& start)
-    : matrix_(problem.matrix),
-      b_(problem.constant),
+    : matrix_(problem.matrix()),
+      b_(problem.constant()),
       start_(start),
-      drowsy_velocity_(drowsy * tolerance / problem.time_step),
-      quiet_velocity_(problem.start.empty() ? 0.0 : quiet * tolerance / problem.time_step) {
+      drowsy_velocity_(drowsy * tolerance / problem.time_step()),
+      quiet_velocity_(problem.start().empty() ? 0.0 : quiet * tolerance / problem.time_step()) {
     extend();
 }
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "jostle/contact_problem/contact_solver.hpp"
+#include "jostle/contact_problem/contact_problem.hpp"
 #include "jostle/contact_problem/pair_colours.hpp"
 #include "jostle/contact_problem/swept_contacts.hpp"
 

@@ -102,7 +102,7 @@ void for_forces(const SweptPair& pair, Body&& body) {
 /// What sweeps know of the rods with contacts (places).
 template <class Real>
 struct Places {
-    const DelassusOperator::Rod* rods;
+    const MobileRod* rods;
     Wide<Real>* velocities;
     float* stirred;  ///< the largest change of a gap velocity by a contact of each, or null
 };

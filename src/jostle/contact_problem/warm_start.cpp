@@ -61,7 +61,7 @@ private:
 void WarmStart::keep(const Contacts& contacts, std::span<const double> gamma, std::span<const std::uint64_t> ids) {
     forces_.clear();
     for (std::size_t l = 0; l < gamma.size(); ++l)
-        if (gamma[l] > 0.0 && contacts.feature[l] != ContactFeature::pushed)  // no step begins with those
+        if (gamma[l] > 0.0 && contacts.feature[l] != ContactFeature::relinearised)  // no step begins with those
             forces_.push_back(force_of(contacts, l, ids, gamma[l]));
 }
 

@@ -4,20 +4,11 @@
 
 #include "jostle/math/random.hpp"
 #include "jostle/rods/forces.hpp"
+#include "jostle/rods/rod_mobility.hpp"
 #include "jostle/rods/rods.hpp"
 #include "jostle/rods/velocities.hpp"
 
 namespace jostle {
-
-/// How one rod alone answers to force and torque: U = [parallel n n + perpendicular (I - n n)] F, Omega = rotational (I
-/// - n n) T.
-///
-/// Spin about the axis moves nothing that jostle sees, so it is left out.
-struct RodMobility {
-    double parallel = 0.0;       ///< velocity per force along the axis
-    double perpendicular = 0.0;  ///< velocity per force across the axis
-    double rotational = 0.0;     ///< angular velocity per torque across the axis
-};
 
 /// The linear map from forces on the rods to their velocities: symmetric, positive semi-definite.
 ///

@@ -63,17 +63,15 @@ PushApartResult push_apart(Rods& rods, const Box& box, Mobility& mobility) {
         parallel_for(b.size(), [&](std::size_t l) {
             b[l] = std::max(contacts.contact[l].gap - free_space * thinnest, -opened_each_round * thinnest);
         });
-        const ContactMatrix contact_matrix(contacts, rods.id);
-        const DelassusOperator matrix(contact_matrix, rods, mobility);
+        ContactProblem problem(rods, mobility, contacts, std::move(b), 1.0);
         LcpSettings settings;
         settings.tolerance = apart_tolerance * thinnest;
         settings.max_iterations = iterations_each_round;
         // A rough solution still leads apart; only the last rounds need to be, and are, solved to the tolerance.
-        ContactSolution solution;
-        const SolverOutcome outcome =
-            solve_contact_problem({matrix, b, 1.0, {}}, SolverMethod::automatic, settings, solution);
-        if (outcome.status == LcpStatus::not_finite) return result;
-        move(rods, box, solution, largest_move * thinnest);
+        const auto solver = make_contact_solver(problem, SolverMethod::automatic, settings);
+        while (solver->run_to_next_stop()) continue;
+        if (solver->outcome().status == LcpStatus::not_finite) return result;
+        move(rods, box, solver->solution(), largest_move * thinnest);
     }
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jostle/contact/time_step_correction.hpp"
 #include "jostle/contact/wca_forces.hpp"
-#include "jostle/contact_problem/time_step_correction.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/rods/space_filling_order.hpp"
@@ -15,17 +15,17 @@ namespace {
 
 // Lengths in mean diameters, chosen by the time of a step: they change speed, and results within the tolerance.
 
-/// A pair whose gap after the known motion is wider than touching by this much is only watched.
-constexpr double margin_per_diameter = 0.02;
+/// A pair whose gap after the known motion is wider than touching by this much is inactive.
+constexpr double activation_margin_per_diameter = 0.02;
 /// How far rods go before the neighbour list is built again: this at the default step, less at shorter ones (the
 /// shorter the step, the less often lists are built).
-constexpr double travel_per_diameter = 0.5, travel_per_length = 0.13, displacement_at_default_step = 0.07;
+constexpr double skin_per_diameter = 0.5, skin_per_length = 0.13, displacement_at_default_step = 0.07;
 /// Up to so many times as far at longer steps, where fewer than a crowd fill a volume of (L + D)^3: it is rods more
 /// than pairs that a list costs time for then.
-constexpr double crowd = 3.0, most_travel_when_dilute = 2.0;
-/// How far rods may be pushed by others before all their neighbours are looked at: at most so far, and so many mean
-/// Brownian displacements, for these bring rods together. Without noise pushes add up through crowds.
-constexpr double most_push_allowance = 0.2, push_per_displacement = 3.0;
+constexpr double crowd = 3.0, max_skin_when_dilute = 2.0;
+/// How far forces may displace rods before all their neighbours are looked at: at most so far, and so many mean
+/// Brownian displacements, for these bring rods together. Without noise displacements add up through crowds.
+constexpr double max_displacement_limit = 0.2, limit_per_displacement = 3.0;
 
 double mean_of(const std::vector<double>& values) {
     if (values.empty()) return 1.0;
@@ -68,30 +68,28 @@ void Simulation::add_springs(std::vector<Spring> springs) {
 /// Makes everything that belongs to rows anew.
 void Simulation::take_over_rods() {
     search_.invalidate();
-    known_.resize(rods_.size());
-    displacement_.resize(rods_.size());
-    moved_.centre.resize(rods_.size());
-    moved_.axis.resize(rods_.size());
-    pushes_.assign(rods_.size(), {});
+    known_.velocity.resize(rods_.size());
+    known_.end.resize(rods_.size());
+    known_.displacement.resize(rods_.size());
     find_sizes();
 }
 
-void Simulation::find_allowances() {
-    margin_ = margin_per_diameter * mean_diameter_;
-    push_allowance_ = most_push_allowance * mean_diameter_;
-    travel_ = travel_per_diameter * mean_diameter_ + travel_per_length * mean_length_;
+void Simulation::find_search_ranges() {
+    auto& [displacement_limit, skin, activation_margin, range] = ranges_;
+    activation_margin = activation_margin_per_diameter * mean_diameter_;
+    displacement_limit = max_displacement_limit * mean_diameter_;
+    skin = skin_per_diameter * mean_diameter_ + skin_per_length * mean_length_;
     if (settings_.kT == 0.0) return;
-    const double displacement = mean_of(displacement_);
+    const double displacement = mean_of(known_.displacement);
     // Not below half the margin: the neighbour list must hold every pair that may come within it.
-    push_allowance_ = std::clamp(push_per_displacement * displacement, 0.5 * margin_, push_allowance_);
-    double most_travel = 1.0;
+    displacement_limit = std::clamp(limit_per_displacement * displacement, 0.5 * activation_margin, displacement_limit);
+    double max_skin = 1.0;
     if (box_.is_periodic()) {  // in an open one the volume does not tell how near rods are to each other
         const double near =
             static_cast<double>(rods_.size()) * std::pow(mean_length_ + mean_diameter_, 3.0) / box_.volume();
-        most_travel = std::clamp(std::sqrt(crowd / near), 1.0, most_travel_when_dilute);
+        max_skin = std::clamp(std::sqrt(crowd / near), 1.0, max_skin_when_dilute);
     }
-    travel_ *=
-        std::min(most_travel, std::pow(displacement / (displacement_at_default_step * mean_diameter_), 2.0 / 3.0));
+    skin *= std::min(max_skin, std::pow(displacement / (displacement_at_default_step * mean_diameter_), 2.0 / 3.0));
 }
 
 /// What follows from the sizes of the rods alone: these change where cells grow.
@@ -99,26 +97,19 @@ void Simulation::find_sizes() {
     mobility_->update(rods_);
     mean_diameter_ = mean_of(rods_.diameter);
     mean_length_ = mean_of(rods_.length);
-    range_ = settings_.range;
+    ranges_.range = settings_.range;
     if (settings_.wca_energy > 0.0)
-        range_ =
+        ranges_.range =
             (wca_range - 1.0) * parallel_max(rods_.size(), 0.0, [this](std::size_t i) { return rods_.diameter[i]; });
     largest_shift_.assign(rods_.size(), 0.0);
     if (!settings_.brownian_correction) return;
+    own_mobility_.resize(rods_.size());
     parallel_for(rods_.size(), [&](std::size_t i) {
-        const RodMobility rod = mobility_->of_rod(i);
+        const RodMobility rod = own_mobility_[i] = mobility_->of_rod(i);
         const double half = 0.5 * rods_.length[i];
         const double largest = std::max(rod.parallel, rod.perpendicular) + half * half * rod.rotational;
         largest_shift_[i] = brownian_shift(settings_.kT, settings_.time_step, largest);
     });
-}
-
-RodMotion Simulation::motion() const {
-    const auto shift = [this](const Contact& contact) {
-        return settings_.brownian_correction ? shift_of(contact) : 0.0;
-    };
-    return {moved_.centre, moved_.axis, displacement_,           push_allowance_,           travel_,
-            margin_,       range_,      {largest_shift_, shift}, settings_.wca_energy > 0.0};
 }
 
 /// Now and then: rods near each other in space come near each other in memory.

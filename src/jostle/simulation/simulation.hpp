@@ -88,11 +88,12 @@ private:
     void add_springs(std::vector<Spring> springs);
     void renumber();
     void lengthen();
-    void find_known_velocity();
+    void find_known_motion();
     void pull_springs();
-    void find_contacts(StepReport& report);
-    void solve_contacts(StepReport& report);
-    void repel(StepReport& report);
+    StepGeometry geometry() const;
+    void collide(Contacts found, const StepGeometry& geometry, StepReport& report);
+    void repel(Contacts found, StepReport& report);
+    void keep(ContactProblem&& problem, ContactSolution solution, StepReport& report);
     void measure_stress(StepReport& report);
     void measure_spring_stress(StepReport& report);
     void advance();
@@ -101,17 +102,14 @@ private:
 
     void take_over_rods();
     void find_sizes();
-    void find_allowances();
-    RodMotion motion() const;
-    double shift_of(const Contact& contact) const;
-    void extend_gap_velocities(std::vector<double>& b) const;
-    bool add_missed_contacts(const ContactMatrix& contact_matrix, const ContactSolution& solution, bool final);
-    bool add_pushed_contacts(const ContactMatrix& contact_matrix, const ContactSolution& solution);
-    RodAfter places_after(const ContactMatrix& contact_matrix, const ContactSolution& solution) const;
+    void find_search_ranges();
+    std::vector<double> gap_velocities(const Contacts& contacts) const;
+    EndConfiguration displace(const ContactMatrix& contact_matrix, const ContactSolution& solution);
+    Contacts relinearised(const ContactProblem& problem, const ContactSolution& solution,
+                          const EndConfiguration& end) const;
     bool corrects_brownian_motion() const { return settings_.brownian_correction && settings_.kT > 0.0; }
-    const std::vector<Vec3>& turned_half_way();
+    const std::vector<Vec3>& half_way_axes();
     Vec3 turned_by_springs(std::uint32_t row) const;
-    std::pair<Vec3, Vec3> pushed(std::uint32_t row, const ContactVelocity& velocity) const;
 
     Box box_;
     Rods rods_;
@@ -128,16 +126,19 @@ private:
     ThreadChoice threads_;
     CollisionSearch search_;
     double mean_diameter_ = 0.0, mean_length_ = 0.0;
-    std::vector<double> largest_shift_;  ///< (N) each rod's part in the shift of a gap, at most
-    Velocities known_;                   ///< (N) U_known
-    std::vector<SpringPull> pulls_;      ///< of the springs
-    Velocities by_springs_;              ///< (N) their part of U_known; (0) without springs
-    std::vector<double> displacement_;   ///< (N) by it, of any point of the rod, at most
-    double push_allowance_ = 0.0, travel_ = 0.0, margin_ = 0.0, range_ = 0.0;  ///< of this step (RodMotion)
+    std::vector<RodMobility> own_mobility_;  ///< (N) with the time-step correction
+    std::vector<double> largest_shift_;      ///< (N) each rod's part in the shift of a gap, at most
     struct {
-        std::vector<Vec3> centre, axis;
-    } moved_;                   ///< (N) the rods after the known motion
-    std::vector<Push> pushes_;  ///< (N) by contact forces; all 0 between steps
+        Velocities velocity;               ///< (N) U_known
+        Configuration end;                 ///< (N) the rods after it
+        std::vector<double> displacement;  ///< (N) by it, of any point of the rod, at most
+    } known_;
+    std::vector<SpringPull> pulls_;           ///< of the springs
+    Velocities by_springs_;                   ///< (N) their part of U_known; (0) without springs
+    SearchRanges ranges_;                     ///< of this step
+    Configuration displaced_;                 ///< (n) of the rods with contacts, at the end of the step
+    std::vector<Displacement> displacement_;  ///< (n) of these, by contact forces
+    std::vector<Vec3> half_way_axis_;         ///< (N) of rods in contact
     Contacts contacts_;
     ContactSolution solution_;
     WarmStart warm_start_;

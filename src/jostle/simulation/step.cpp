@@ -2,12 +2,10 @@
 
 #include <chrono>
 #include <optional>
-#include <tuple>
 
-#include "jostle/contact/pushed_overlaps.hpp"
+#include "jostle/contact/relinearised_contacts.hpp"
 #include "jostle/contact/wca_forces.hpp"
-#include "jostle/contact_problem/delassus_operator.hpp"
-#include "jostle/contact_problem/time_step_correction.hpp"
+#include "jostle/contact_problem/contact_solver.hpp"
 #include "jostle/math/rotation.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/simulation/simulation.hpp"
@@ -52,9 +50,9 @@ private:
 };
 
 /// Pairs in contact may overlap by as much, in D, where contact forces turn them far in one step.
-constexpr double most_pushed_overlap = 0.01;
-/// So often, and no more, are their overlaps looked for in one step.
-constexpr int most_looks = 5;
+constexpr double max_overlap_of_turning = 0.01;
+/// So often, and no more, is the problem of one step linearised about its solution.
+constexpr int max_relinearisations = 5;
 
 }  // namespace
 
@@ -72,16 +70,16 @@ StepReport Simulation::step() {
         lengthening.emplace(rods_);
         lengthen();
     }
-    find_known_velocity();
+    find_known_motion();
     timer.finish(StepPhase::known_velocity);
-    find_contacts(report);
+    const StepGeometry geometry = this->geometry();
+    Contacts found = std::move(contacts_);
+    report.max_overlap = search_.find(geometry, found);
     timer.finish(StepPhase::find_contacts);
-    settings_.wca_energy > 0.0 ? repel(report) : solve_contacts(report);
+    ids_before_.clear();
+    settings_.wca_energy > 0.0 ? repel(std::move(found), report) : collide(std::move(found), geometry, report);
     timer.finish(StepPhase::solve_contacts);
-    if (report.status != LcpStatus::converged) {
-        pushes_.assign(rods_.size(), {});
-        return report;
-    }
+    if (report.status != LcpStatus::converged) return report;
     measure_spring_stress(report);
     measure_stress(report);
     if (growth_) growth_->slow_down(rods_, solution_.rods, solution_.forces, settings_.time_step);
@@ -104,17 +102,20 @@ void Simulation::lengthen() {
 }
 
 // Theory 2.1: U_known, the sum of all motions, and where it would take the rods.
-void Simulation::find_known_velocity() {
-    parallel_for(rods_.size(), [&](std::size_t i) { known_.linear[i] = known_.angular[i] = Vec3{}; });
-    for (const auto& cause : motions_) cause->add_to(known_, rods_, {settings_.seed, clock_.step, settings_.time_step});
+void Simulation::find_known_motion() {
+    auto& [linear, angular] = known_.velocity;
+    parallel_for(rods_.size(), [&](std::size_t i) { linear[i] = angular[i] = Vec3{}; });
+    for (const auto& cause : motions_)
+        cause->add_to(known_.velocity, rods_, {settings_.seed, clock_.step, settings_.time_step});
     if (springs_) pull_springs();
     parallel_for(rods_.size(), [&](std::size_t i) {
-        moved_.centre[i] = rods_.centre[i] + settings_.time_step * known_.linear[i];
-        moved_.axis[i] = rotated(rods_.axis[i], settings_.time_step * known_.angular[i]);
-        displacement_[i] = farthest_displacement(moved_.centre[i] - rods_.centre[i], moved_.axis[i] - rods_.axis[i],
-                                                 0.5 * rods_.length[i]);
+        auto& [centre, axis] = known_.end;
+        centre[i] = rods_.centre[i] + settings_.time_step * linear[i];
+        axis[i] = rotated(rods_.axis[i], settings_.time_step * angular[i]);
+        known_.displacement[i] =
+            farthest_displacement(centre[i] - rods_.centre[i], axis[i] - rods_.axis[i], 0.5 * rods_.length[i]);
     });
-    find_allowances();
+    find_search_ranges();
 }
 
 // Theory 2.7: the springs' part of U_known.
@@ -122,147 +123,125 @@ void Simulation::pull_springs() {
     pulls_ = springs_->pulls(rods_);
     by_springs_ = springs_->velocities(rods_, pulls_);
     parallel_for(rods_.size(), [&](std::size_t i) {
-        known_.linear[i] += by_springs_.linear[i];
-        known_.angular[i] += by_springs_.angular[i];
+        known_.velocity.linear[i] += by_springs_.linear[i];
+        known_.velocity.angular[i] += by_springs_.angular[i];
     });
 }
 
-// Theory 2.2: all pairs of points that may touch in this step.
-void Simulation::find_contacts(StepReport& report) {
-    ids_before_.clear();
-    report.max_overlap = search_.find(rods_, box_, motion(), contacts_);
-}
-
-// Theory 3: the gap at which two compliant contacts touch, eq. 3.5.
-double Simulation::shift_of(const Contact& contact) const {
-    const auto rod = [this](std::uint32_t row) {
-        return DelassusOperator::Rod{rods_.axis[row], mobility_->of_rod(row)};
-    };
-    return brownian_shift(settings_.kT, settings_.time_step, gap_mobility(contact, rod(contact.i), rod(contact.j)));
+// Theory 2.2: what the search for contacts needs to know of the step.
+StepGeometry Simulation::geometry() const {
+    const bool corrected = corrects_brownian_motion();
+    const GapShift shift = {largest_shift_, rods_.axis,
+                            corrected ? std::span(own_mobility_) : std::span<const RodMobility>{}, settings_.kT,
+                            settings_.time_step};
+    return {rods_, box_, known_.end, known_.displacement, shift, ranges_, settings_.wca_energy > 0.0};
 }
 
 // Theory 2.3: 0 <= A gamma + b  perp  gamma >= 0, with more contacts where forces turn out to bring rods together.
-void Simulation::solve_contacts(StepReport& report) {
-    using Include = ContactMatrix::Include;
-    ContactMatrix contact_matrix(contacts_, rods_.id,
-                                 mobility_->couples_rods() ? Include::all_rods : Include::rods_with_contacts);
+void Simulation::collide(Contacts found, const StepGeometry& geometry, StepReport& report) {
     const double compliance = corrects_brownian_motion() ? contact_compliance : 0.0;
-    DelassusOperator matrix(contact_matrix, rods_, *mobility_, compliance);
-    std::vector<double> b, start;
-    extend_gap_velocities(b);
-    if (settings_.warm_start) start = warm_start_.guess(contacts_, rods_.id);
-    int looks = settings_.look_again ? most_looks : 0;
-    const auto add_missed = [&](const ContactSolution& solution, bool final) {
-        // The latter first: a contact that was missed has no force yet, and is not to be mended as one that has.
-        const bool pushed = final && looks-- > 0 && add_pushed_contacts(contact_matrix, solution);
-        const bool missed = add_missed_contacts(contact_matrix, solution, final);
-        if (!pushed && !missed) return false;
-        contact_matrix.extend();
-        matrix.extend();
-        extend_gap_velocities(b);
-        return true;
-    };
-    const SolverOutcome outcome = solve_contact_problem({matrix, b, settings_.time_step, add_missed, std::move(start)},
-                                                        settings_.method, settings_.lcp, solution_);
+    std::vector<double> b = gap_velocities(found), start;
+    if (settings_.warm_start) start = warm_start_.guess(found, rods_.id);
+    ContactProblem problem(rods_, *mobility_, std::move(found), std::move(b), settings_.time_step, compliance,
+                           std::move(start));
+    const auto solver = make_contact_solver(problem, settings_.method, settings_.lcp);
+    int relinearisations = settings_.look_again ? max_relinearisations : 0;
+    while (solver->run_to_next_stop()) {
+        const ContactSolution& solution = solver->solution();
+        const EndConfiguration end = displace(problem.contact_matrix(), solution);
+        Contacts more;
+        if (solver->at_solution() && relinearisations-- > 0) more = relinearised(problem, solution, end);
+        const auto violated = search_.violated_pairs(geometry, problem.contacts(), end, solver->at_solution());
+        more.append(search_.activate(violated, geometry));
+        if (more.size() > 0) problem.append(more, gap_velocities(more));
+    }
+    const SolverOutcome& outcome = solver->outcome();
     report.status = outcome.status;
     report.residual = outcome.residual;
     report.iterations = outcome.iterations;
     report.solves = outcome.solves;
-    report.contacts = contacts_.size();
+    keep(std::move(problem), std::move(*solver).take_solution(), report);
 }
 
-// Not in the paper: soft rods. The forces follow from the places before the step, and nothing has to be solved.
-void Simulation::repel(StepReport& report) {
-    const ContactMatrix contact_matrix(contacts_, rods_.id);
-    const DelassusOperator matrix(contact_matrix, rods_, *mobility_);
-    solution_ = {};
-    solution_.resize(contact_matrix);
-    solution_.gamma = wca_forces(contacts_, rods_, settings_.wca_energy);
-    matrix.velocities(solution_.gamma, solution_.forces, solution_.velocities);
+// Not in the paper: soft rods. The forces follow from where rods are before the step, and nothing has to be solved.
+void Simulation::repel(Contacts found, StepReport& report) {
+    ContactSolution solution;
+    solution.gamma = wca_forces(found, rods_, settings_.wca_energy);
+    ContactProblem problem(rods_, *mobility_, std::move(found), {}, settings_.time_step);
+    problem.complete(solution);
+    displace(problem.contact_matrix(), solution);
+    keep(std::move(problem), std::move(solution), report);
+}
+
+void Simulation::keep(ContactProblem&& problem, ContactSolution solution, StepReport& report) {
+    contacts_ = std::move(problem).take_contacts();
+    solution_ = std::move(solution);
     report.contacts = contacts_.size();
 }
 
 // b of the contact problem (theory, eq. 3.3): the gap after the known motion, shifted, over dt; or as in the paper,
 // b = Phi/dt + D^T U_known.
-void Simulation::extend_gap_velocities(std::vector<double>& b) const {
+std::vector<double> Simulation::gap_velocities(const Contacts& contacts) const {
     const double dt = settings_.time_step;
-    const std::size_t known = b.size();
-    b.resize(contacts_.size());
-    parallel_for(b.size() - known, [&](std::size_t k) {
-        const std::size_t l = known + k;
-        const Contact& contact = contacts_.contact[l];
-        // Points found after a motion have their gap there.
-        const bool found_later = contacts_.feature[l] == ContactFeature::pushed || contact.i == contact.j;
+    std::vector<double> b(contacts.size());
+    parallel_for(b.size(), [&](std::size_t l) {
+        const Contact& contact = contacts.contact[l];
+        const bool found_later = contacts.feature[l] == ContactFeature::relinearised || contact.i == contact.j;
         if (settings_.brownian_correction || found_later) {
-            b[l] = contact.room / dt;
+            b[l] = contact.shifted_gap / dt;
             return;
         }
         const auto velocity = [&](std::uint32_t row) {
-            return ContactVelocity{known_.linear[row], cross(known_.angular[row], rods_.axis[row])};
+            return ContactVelocity{known_.velocity.linear[row], cross(known_.velocity.angular[row], rods_.axis[row])};
         };
         b[l] = contact.gap / dt + gap_rate(contact, velocity(contact.i), velocity(contact.j));
     });
+    return b;
 }
 
-// Centre and axis of a rod after the step, with the velocity that contact forces give it.
-std::pair<Vec3, Vec3> Simulation::pushed(std::uint32_t row, const ContactVelocity& velocity) const {
-    const double dt = settings_.time_step;
-    const Vec3& axis = rods_.axis[row];
-    return {rods_.centre[row] + dt * (known_.linear[row] + velocity.centre),
-            rotated(axis, dt * (known_.angular[row] + cross(axis, velocity.turning)))};
-}
-
-// Where forces take the rods: those without contacts, where the known motion does.
-RodAfter Simulation::places_after(const ContactMatrix& contact_matrix, const ContactSolution& solution) const {
-    return [&](std::uint32_t row) -> std::pair<Vec3, Vec3> {
-        const std::uint32_t place = contact_matrix.place_of(row);
-        if (place == ContactMatrix::no_place) return {moved_.centre[row], moved_.axis[row]};
-        return pushed(row, solution.velocities[place]);
-    };
-}
-
-// Rods may be pushed into others that were no contacts. Says whether there were such, and makes them contacts.
-bool Simulation::add_missed_contacts(const ContactMatrix& contact_matrix, const ContactSolution& solution, bool final) {
+// Theory 2.4: where rods with contacts are after the step, q + dt (U_known + U_C), and what forces add to their known
+// motion.
+EndConfiguration Simulation::displace(const ContactMatrix& contact_matrix, const ContactSolution& solution) {
     const double dt = settings_.time_step;
     const auto rows = contact_matrix.rods();
-    parallel_for(rows.size(), [&](std::size_t place) {
-        const std::uint32_t row = rows[place];
-        const auto& [linear, turning] = solution.velocities[place];
+    displaced_.resize(rows.size());
+    displacement_.resize(rows.size());
+    parallel_for(rows.size(), [&](std::size_t k) {
+        const std::uint32_t row = rows[k];
+        const auto& [linear, turning] = solution.velocities[k];
+        const Vec3 &axis = rods_.axis[row], &known_angular = known_.velocity.angular[row];
+        displaced_.centre[k] = rods_.centre[row] + dt * (known_.velocity.linear[row] + linear);
+        displaced_.axis[k] = rotated(axis, dt * (known_angular + cross(axis, turning)));
         const double half = 0.5 * rods_.length[row];
         // Rotations add up to second order in their angles.
-        const double twist = half * dt * dt * norm(turning) * norm(known_.angular[row]);
+        const double twist = half * dt * dt * norm(turning) * norm(known_angular);
         const Vec3 centre = dt * linear, end = (dt * half) * turning;
         const double farthest = farthest_displacement(centre, dt * turning, half) + twist;
         const double rounding = 1e-6 * farthest;
-        pushes_[row] = {in_float(centre), in_float(end), static_cast<float>(farthest + rounding),
-                        static_cast<float>(twist + rounding)};
+        displacement_[k] = {in_float(centre), in_float(end), static_cast<float>(farthest + rounding),
+                            static_cast<float>(twist + rounding)};
     });
-    const auto missed = search_.missed_pairs(rods_, box_, motion(), contacts_, rows, pushes_,
-                                             places_after(contact_matrix, solution), final);
-    search_.add(missed, rods_, box_, motion(), contacts_);
-    return !missed.empty();
+    return {known_.end, contact_matrix.local_index(), rows, displaced_, displacement_};
 }
 
 // Not in the paper (theory, eq. 2.18): the problem again, linear about where its solution takes those rods that would
 // overlap there.
-bool Simulation::add_pushed_contacts(const ContactMatrix& contact_matrix, const ContactSolution& solution) {
+Contacts Simulation::relinearised(const ContactProblem& problem, const ContactSolution& solution,
+                                  const EndConfiguration& end) const {
     // Beyond what the solver may leave.
     const double tolerance = settings_.lcp.residual == LcpResidual::length ? settings_.lcp.tolerance : 0.0;
-    const Contacts pushed = pushed_overlaps(contacts_, rods_, box_, places_after(contact_matrix, solution),
-                                            most_pushed_overlap * mean_diameter_ + tolerance);
-    const auto velocity = [&](std::uint32_t row) { return solution.velocities[contact_matrix.place_of(row)]; };
-    for (std::size_t l = 0; l < pushed.size(); ++l) {
-        Contact contact = pushed.contact[l];
-        contact.room -= settings_.time_step * gap_rate(contact, velocity(contact.i), velocity(contact.j));
-        contacts_.push_back(contact, pushed.image[l], ContactFeature::pushed);
-    }
-    return pushed.size() > 0;
+    Contacts contacts = relinearised_contacts(problem.contacts(), rods_, box_, end,
+                                              max_overlap_of_turning * mean_diameter_ + tolerance);
+    const auto velocity = [&](std::uint32_t row) { return solution.velocities[end.local_index[row]]; };
+    for (Contact& contact : contacts.contact)
+        contact.shifted_gap -= settings_.time_step * gap_rate(contact, velocity(contact.i), velocity(contact.j));
+    return contacts;
 }
 
 // Theory 1: the sum over contacts of (r_j - r_i) F, and over rods of the geometric part of the net torque. With the
 // time-step correction: of rods half way through their collisions (theory, eq. 3.7).
 void Simulation::measure_stress(StepReport& report) {
-    const std::vector<Vec3>& axis = corrects_brownian_motion() ? turned_half_way() : rods_.axis;
+    const std::vector<Vec3>& axis = corrects_brownian_motion() ? half_way_axes() : rods_.axis;
     const auto distance = settings_.brownian_correction ? ContactDistance::touching : ContactDistance::at_start;
     std::vector<Vec3> torque(solution_.rods.size());
     parallel_for(torque.size(), [&](std::size_t place) {
@@ -281,17 +260,17 @@ void Simulation::measure_stress(StepReport& report) {
         solution_.gamma.size(), [&](std::size_t l) { return solution_.gamma[l] > 0.0 ? std::size_t{1} : 0; });
 }
 
-// Axes after the known motion and one half of what contact forces (and springs) turn them; of the rods in contact,
-// those that matter. `advance` overwrites them.
-const std::vector<Vec3>& Simulation::turned_half_way() {
-    parallel_for(solution_.rods.size(), [&](std::size_t place) {
-        const std::uint32_t row = solution_.rods[place];
+// Axes after the known motion and one half of what contact forces (and springs) turn them, of the rods in contact.
+const std::vector<Vec3>& Simulation::half_way_axes() {
+    half_way_axis_.resize(rods_.size());
+    parallel_for(solution_.rods.size(), [&](std::size_t k) {
+        const std::uint32_t row = solution_.rods[k];
         const Vec3& axis = rods_.axis[row];
-        const Vec3 collision = cross(axis, solution_.velocities[place].turning);
-        const Vec3 known = known_.angular[row] - 0.5 * turned_by_springs(row);
-        moved_.axis[row] = rotated(axis, settings_.time_step * (known + 0.5 * collision));
+        const Vec3 collision = cross(axis, solution_.velocities[k].turning);
+        const Vec3 known = known_.velocity.angular[row] - 0.5 * turned_by_springs(row);
+        half_way_axis_[row] = rotated(axis, settings_.time_step * (known + 0.5 * collision));
     });
-    return moved_.axis;
+    return half_way_axis_;
 }
 
 // Angular velocity that springs give to a rod.
@@ -320,13 +299,13 @@ void Simulation::measure_spring_stress(StepReport& report) {
 
 // Theory 2.4: q^{k+1} = q^k + dt (U_known + U_C), axes by the exponential map.
 void Simulation::advance() {
-    parallel_for(solution_.rods.size(), [&](std::size_t place) {
-        const std::uint32_t row = solution_.rods[place];
-        std::tie(moved_.centre[row], moved_.axis[row]) = pushed(row, solution_.velocities[place]);
-        pushes_[row] = {};
+    auto& [centre, axis] = known_.end;
+    parallel_for(solution_.rods.size(), [&](std::size_t k) {
+        centre[solution_.rods[k]] = displaced_.centre[k];
+        axis[solution_.rods[k]] = displaced_.axis[k];
     });
-    rods_.centre.swap(moved_.centre);
-    rods_.axis.swap(moved_.axis);
+    rods_.centre.swap(centre);
+    rods_.axis.swap(axis);
     parallel_for(rods_.size(), [&](std::size_t i) { box_.wrap(rods_.centre[i], rods_.image[i]); });
     for (const auto& cause : motions_)
         turn_round(cause->turned_round(rods_, {settings_.seed, clock_.step, settings_.time_step}));

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "jostle/contact/collision_search.hpp"
@@ -12,62 +13,85 @@ using namespace jostle::test;
 
 namespace {
 
-constexpr double margin = 0.02, allowance = 0.05, touching = 0.02, travel = 0.3;
+constexpr double margin = 0.02, displacement_limit = 0.05, touching = 0.02, skin = 0.3;
+/// With kT = dt = 1 two spheres of this mobility touch at the gap `touching` (theory, eq. 3.5).
+const double spherical_mobility = 0.25 * std::pow(touching / discrete_watching, 2.0);
 
-/// Random motions and pushes of some rods.
+/// Random known motions of rods, and displacements of every third by forces.
 struct Moves {
-    std::vector<Vec3> centre, axis, end_centre, end_axis;
-    std::vector<double> displacement, touching_part;
-    std::vector<Push> pushes;
-    std::vector<std::uint32_t> pushed;
+    const Rods& rods_before;
+    const Box& in_box;
+    Configuration known, displaced;
+    std::vector<double> farthest_known, shift_part;
+    std::vector<RodMobility> own;
+    std::vector<std::uint32_t> local_index, rows;
+    std::vector<Displacement> displacement;
 
-    Moves(const Rods& rods, double known, double push, std::mt19937_64& engine)
-        : displacement(rods.size()), touching_part(rods.size(), touching), pushes(rods.size()) {
+    Moves(const Rods& rods, const Box& box, double known_size, double forced_size, std::mt19937_64& engine)
+        : rods_before(rods),
+          in_box(box),
+          farthest_known(rods.size()),
+          shift_part(rods.size(), touching),
+          own(rods.size()),
+          local_index(rods.size(), no_local_index) {
         std::normal_distribution<double> normal;
         const auto vector = [&](double size) { return size * Vec3{normal(engine), normal(engine), normal(engine)}; };
         for (std::uint32_t i = 0; i < rods.size(); ++i) {
             const double half = 0.5 * rods.length[i], lever = 1.0 + half;
-            const Vec3 turn = vector(known / lever);
-            centre.push_back(rods.centre[i] + vector(known));
-            axis.push_back(rotated(rods.axis[i], turn));
-            displacement[i] = farthest_displacement(centre[i] - rods.centre[i], axis[i] - rods.axis[i], half);
-            const double size = i % 3 == 0 ? push : 0.0;  // forces push every third rod
+            const Vec3 turn = vector(known_size / lever);
+            known.centre.push_back(rods.centre[i] + vector(known_size));
+            known.axis.push_back(rotated(rods.axis[i], turn));
+            farthest_known[i] =
+                farthest_displacement(known.centre[i] - rods.centre[i], known.axis[i] - rods.axis[i], half);
+            own[i] = {spherical_mobility, spherical_mobility, 0.0};
+            const double size = i % 3 == 0 ? forced_size : 0.0;
             const Vec3 shift = vector(size), more = vector(size / lever);
-            end_centre.push_back(centre[i] + shift);
-            end_axis.push_back(size > 0.0 ? rotated(rods.axis[i], turn + more) : axis[i]);
             if (size == 0.0) continue;
-            const Vec3 end = half * (end_axis[i] - axis[i]);
-            const auto single = [](const Vec3& a) {
-                return std::array{static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
-            };
-            pushes[i] = {single(shift), single(end),
-                         static_cast<float>(1.00001 * farthest_displacement(shift, end_axis[i] - axis[i], half)),
-                         1e-5F};
-            pushed.push_back(i);
+            local_index[i] = static_cast<std::uint32_t>(rows.size());
+            rows.push_back(i);
+            displaced.centre.push_back(known.centre[i] + shift);
+            displaced.axis.push_back(rotated(rods.axis[i], turn + more));
+            const Vec3 turned = displaced.axis.back() - known.axis[i];
+            displacement.push_back({in_float(shift), in_float(half * turned),
+                                    static_cast<float>(1.00001 * farthest_displacement(shift, turned, half)), 1e-5F});
         }
     }
-    RodMotion motion(double range = 0.0) const {
-        return {centre, axis,   displacement, allowance,
-                travel, margin, range,        {touching_part, [](const Contact&) { return touching; }}};
+    StepGeometry step(double range = 0.0) const {
+        return {rods_before,
+                in_box,
+                known,
+                farthest_known,
+                {shift_part, rods_before.axis, own, 1.0, 1.0},
+                {displacement_limit, skin, margin, range}};
+    }
+    EndConfiguration end() const { return {known, local_index, rows, displaced, displacement}; }
+    Configuration all_at_end() const {
+        Configuration all = known;
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            all.centre[rows[k]] = displaced.centre[k];
+            all.axis[rows[k]] = displaced.axis[k];
+        }
+        return all;
     }
 };
 
-/// All pairs whose gap is below `limit` when the rods lie elsewhere.
-std::set<PairName> pairs_within(Rods rods, const Box& box, const std::vector<Vec3>& centre,
-                                const std::vector<Vec3>& axis, double limit) {
+/// All pairs whose gap is below `limit` beyond touching when the rods lie elsewhere. A rod touches its own image at the
+/// gap 0: the mobilities of `Moves` do not turn it.
+std::set<PairKey> pairs_within(Rods rods, const Box& box, const Configuration& at, double limit) {
     // Images are told for centres as they are in `rods`, so the displaced ones must not be wrapped.
     const auto before = brute_force_pairs(rods, box, 3.0);
-    std::set<PairName> result;
+    std::set<PairKey> result;
     for (const auto& pair : before) {
         const Vec3 displacement = box.displacement(pair.image);
-        if (pair_gap(pair_geometry(rods, pair.i, pair.j, displacement, centre, axis)) < limit)
+        if (pair_gap(pair_geometry(rods, pair.i, pair.j, displacement, at.centre, at.axis)) <
+            limit + (pair.i == pair.j ? 0.0 : touching))
             result.insert({static_cast<std::uint32_t>(pair.i), static_cast<std::uint32_t>(pair.j), pair.image});
     }
     return result;
 }
 
-std::set<PairName> names(const Contacts& contacts) {
-    std::set<PairName> result;
+std::set<PairKey> keys(const Contacts& contacts) {
+    std::set<PairKey> result;
     for (std::size_t l = 0; l < contacts.size(); ++l)
         result.insert({contacts.contact[l].i, contacts.contact[l].j, contacts.image[l]});
     return result;
@@ -75,16 +99,16 @@ std::set<PairName> names(const Contacts& contacts) {
 
 }  // namespace
 
-TEST_CASE("contacts, and the pairs missed: against brute force, in any box, with small and large pushes") {
+TEST_CASE("contacts, and violated pairs: against brute force, in any box, with small and large displacements") {
     struct Case {
         const char* name;
         Box box;
         std::size_t count;
-        double length, known, push;
+        double length, known, forced;
     };
     const std::vector<Case> cases = {
         {"rods", {{18, 18, 18}, {true, true, true}}, 150, 5.0, 0.03, 0.03},
-        {"pushed beyond the allowance", {{18, 18, 18}, {true, true, true}}, 150, 5.0, 0.03, 0.15},
+        {"displaced beyond the limit", {{18, 18, 18}, {true, true, true}}, 150, 5.0, 0.03, 0.15},
         {"thinner than a rod", {{20, 3, 2.5}, {true, true, true}}, 20, 5.0, 0.03, 0.08},
         {"open", {{12, 12, 12}, {false, false, false}}, 60, 5.0, 0.05, 0.08},
         {"spheres", {{9, 9, 9}, {true, true, true}}, 200, 0.0, 0.05, 0.1},
@@ -93,60 +117,58 @@ TEST_CASE("contacts, and the pairs missed: against brute force, in any box, with
     const unsigned seed = 19;
     MESSAGE("seed ", seed);
     std::mt19937_64 engine(seed);
-    std::size_t missed_in_all = 0;
+    std::size_t violated_in_all = 0;
     for (const Case& test : cases) {
         CAPTURE(test.name);
         const Rods rods = thrown(test.count, test.box, test.length, 1.0, engine);
         CollisionSearch search;
         for (int step = 0; step < 6; ++step) {
-            const Moves moves(rods, test.known, test.push, engine);
+            const Moves moves(rods, test.box, test.known, test.forced, engine);
             Contacts contacts;
-            const double overlap = search.find(rods, test.box, moves.motion(), contacts);
+            const double overlap = search.find(moves.step(), contacts);
             double deepest = 0.0;
             for (const auto& pair : brute_force_pairs(rods, test.box, 0.0)) deepest = std::max(deepest, -pair.gap);
             CHECK(overlap == doctest::Approx(deepest).epsilon(1e-12));
-            const double limit = touching + margin;
-            const auto expected = pairs_within(rods, test.box, moves.centre, moves.axis, limit);
-            const auto found = names(contacts);
+            const auto expected = pairs_within(rods, test.box, moves.known, margin);
+            const auto found = keys(contacts);
             CHECK(std::includes(found.begin(), found.end(), expected.begin(), expected.end()));
             // More than these only where rods overlap already, or have passed through each other.
-            for (const PairName& name : found) {
-                if (expected.count(name) > 0) continue;
-                const Vec3 displacement = test.box.displacement(name.image);
-                const auto before = pair_geometry(rods, name.i, name.j, displacement, rods.centre, rods.axis);
-                const auto moved = pair_geometry(rods, name.i, name.j, displacement, moves.centre, moves.axis);
+            for (const PairKey& key : found) {
+                if (expected.count(key) > 0) continue;
+                const Vec3 displacement = test.box.displacement(key.image);
+                const auto before = pair_geometry(rods, key.i, key.j, displacement, rods.centre, rods.axis);
+                const auto moved =
+                    pair_geometry(rods, key.i, key.j, displacement, moves.known.centre, moves.known.axis);
                 const bool passed_through =
                     dot(nearest_points(before).separation, nearest_points(moved).separation) <= 0.0;
                 CHECK((pair_gap(before) < 0.0 || passed_through));
             }
 
-            const auto after = [&](std::uint32_t row) { return std::pair{moves.end_centre[row], moves.end_axis[row]}; };
-            const auto missed =
-                search.missed_pairs(rods, test.box, moves.motion(), contacts, moves.pushed, moves.pushes, after, true);
-            std::set<PairName> touching_then = pairs_within(rods, test.box, moves.end_centre, moves.end_axis, touching);
-            for (const PairName& name : found) touching_then.erase(name);
-            CHECK(std::set<PairName>(missed.begin(), missed.end()) == touching_then);
-            missed_in_all += missed.size();
+            const auto violated = search.violated_pairs(moves.step(), contacts, moves.end(), true);
+            std::set<PairKey> touching_then = pairs_within(rods, test.box, moves.all_at_end(), 0.0);
+            for (const PairKey& key : found) touching_then.erase(key);
+            CHECK(std::set<PairKey>(violated.begin(), violated.end()) == touching_then);
+            violated_in_all += violated.size();
 
-            search.add(missed, rods, test.box, moves.motion(), contacts);
-            CHECK(names(contacts).size() == found.size() + missed.size());
-            CHECK(search.missed_pairs(rods, test.box, moves.motion(), contacts, moves.pushed, moves.pushes, after, true)
-                      .empty());
+            contacts.append(search.activate(violated, moves.step()));
+            CHECK(keys(contacts).size() == found.size() + violated.size());
+            CHECK(search.violated_pairs(moves.step(), contacts, moves.end(), true).empty());
         }
     }
-    CHECK(missed_in_all > 50);  // or the test would not test the second half
+    CHECK(violated_in_all > 50);  // or the test would not test the second half
 }
 
 TEST_CASE("with a range, all pairs with a smaller gap are contacts") {
     std::mt19937_64 engine(23);
     const Box box{{12, 12, 12}, {true, true, true}};
     const Rods rods = thrown(60, box, 5.0, 1.0, engine);
-    const Moves moves(rods, 0.02, 0.0, engine);
+    const Moves moves(rods, box, 0.02, 0.0, engine);
     CollisionSearch search;
     Contacts contacts;
-    search.find(rods, box, moves.motion(0.5), contacts);
-    const auto found = names(contacts);
-    for (const PairName& name : pairs_within(rods, box, rods.centre, rods.axis, 0.5)) CHECK(found.count(name) == 1);
+    search.find(moves.step(0.5), contacts);
+    const auto found = keys(contacts);
+    for (const PairKey& key : pairs_within(rods, box, {rods.centre, rods.axis}, 0.5 - touching))
+        CHECK(found.count(key) == 1);
 }
 
 TEST_CASE("what is found does not depend on when the neighbour list was built") {
@@ -157,22 +179,20 @@ TEST_CASE("what is found does not depend on when the neighbour list was built") 
         Rods rods = thrown(500, box, 5.0, 1.0, engine);
         CollisionSearch old_search, new_search;
         Contacts contacts, contacts_of_new;
-        const Moves before(rods, 0.04, 0.0, engine);
-        old_search.find(rods, box, before.motion(), contacts);
-        rods.centre = before.centre;
-        rods.axis = before.axis;
-        const Moves moves(rods, 0.03, 0.02, engine);  // half of them beyond the allowance
-        const auto after = [&](std::uint32_t row) { return std::pair{moves.end_centre[row], moves.end_axis[row]}; };
-        old_search.find(rods, box, moves.motion(), contacts);
-        new_search.find(rods, box, moves.motion(), contacts_of_new);
-        CHECK(names(contacts) == names(contacts_of_new));
+        const Moves before(rods, box, 0.04, 0.0, engine);
+        old_search.find(before.step(), contacts);
+        rods.centre = before.known.centre;
+        rods.axis = before.known.axis;
+        const Moves moves(rods, box, 0.03, 0.02, engine);  // half of them beyond the limit
+        old_search.find(moves.step(), contacts);
+        new_search.find(moves.step(), contacts_of_new);
+        CHECK(keys(contacts) == keys(contacts_of_new));
         for (const bool thorough : {false, true, false}) {
-            const auto missed = [&](CollisionSearch& search) {
-                return search.missed_pairs(rods, box, moves.motion(), contacts, moves.pushed, moves.pushes, after,
-                                           thorough);
+            const auto violated = [&](CollisionSearch& search) {
+                return search.violated_pairs(moves.step(), contacts, moves.end(), thorough);
             };
-            const auto found = missed(old_search);
-            CHECK(found == missed(new_search));
+            const auto found = violated(old_search);
+            CHECK(found == violated(new_search));
             (thorough ? late : early) += found.size();
         }
     }

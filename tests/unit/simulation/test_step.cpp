@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "jostle/contact_problem/time_step_correction.hpp"
+#include "jostle/contact/time_step_correction.hpp"
 #include "jostle/setup/assemble.hpp"
 #include "jostle/setup/largest_overlap.hpp"
 #include "jostle/setup/start.hpp"

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "jostle/contact_problem/time_step_correction.hpp"
+#include "jostle/contact/time_step_correction.hpp"
 
 using namespace jostle;
 

@@ -1,4 +1,4 @@
-#include "jostle/contact/pushed_overlaps.hpp"
+#include "jostle/contact/relinearised_contacts.hpp"
 
 #include <algorithm>
 
@@ -6,16 +6,16 @@
 
 namespace jostle {
 
-Contacts pushed_overlaps(const Contacts& contacts, const Rods& rods, const Box& box, const RodAfter& after,
-                         double most) {
+Contacts relinearised_contacts(const Contacts& contacts, const Rods& rods, const Box& box, const EndConfiguration& end,
+                               double max_overlap) {
     std::vector<std::uint8_t> overlaps(contacts.size(), 0);
     parallel_for(contacts.size(), [&](std::size_t l) {
-        const PairName name = pair_of(contacts, l);
-        if (l > 0 && name == pair_of(contacts, l - 1)) return;
-        const PairGeometry pair = pair_geometry_after(rods, box, name, after);
-        overlaps[l] = gap_of_contact(contacts.contact[l], ContactFeature::nearest, pair) < -most ? 1 : 0;
+        const PairKey key = pair_of(contacts, l);
+        if (l > 0 && key == pair_of(contacts, l - 1)) return;
+        const PairGeometry pair = end.pair(rods, box, key);
+        overlaps[l] = gap_of_contact(contacts.contact[l], ContactFeature::nearest, pair) < -max_overlap ? 1 : 0;
     });
-    std::vector<std::pair<PairName, std::size_t>> first;  // of the contacts of each
+    std::vector<std::pair<PairKey, std::size_t>> first;  // of the contacts of each
     for (std::size_t l = 0; l < overlaps.size(); ++l)
         if (overlaps[l] == 1) first.emplace_back(pair_of(contacts, l), l);
     std::sort(first.begin(), first.end());
@@ -24,24 +24,24 @@ Contacts pushed_overlaps(const Contacts& contacts, const Rods& rods, const Box& 
         first.end());
 
     Contacts found;
-    for (const auto& [name, l] : first) {
-        const PairGeometry pair = pair_geometry_after(rods, box, name, after);
+    for (const auto& [key, l] : first) {
+        const PairGeometry pair = end.pair(rods, box, key);
         const NearestPoints nearest = nearest_points(pair);
         const double distance = norm(nearest.separation);
         if (!(distance > 0.0)) continue;  // the axes cross: no normal can be told
         const double side = dot(nearest.separation, contacts.contact[l].normal) < 0.0 ? -1.0 : 1.0;  // passed through?
         Contact contact;
-        contact.i = name.i;
-        contact.j = name.j;
+        contact.i = key.i;
+        contact.j = key.j;
         contact.normal = (side / distance) * nearest.separation;
         contact.arm_i = nearest.s_i;
         contact.arm_j = nearest.s_j;
         const PairGeometry before =
-            pair_geometry(rods, name.i, name.j, box.displacement(name.image), rods.centre, rods.axis);
+            pair_geometry(rods, key.i, key.j, box.displacement(key.image), rods.centre, rods.axis);
         const Vec3 points = before.between + contact.arm_j * before.axis_j - contact.arm_i * before.axis_i;
         contact.gap = dot(points, contact.normal) - pair.radii;
-        contact.room = side * distance - pair.radii;
-        found.push_back(contact, name.image, ContactFeature::pushed);
+        contact.shifted_gap = side * distance - pair.radii;
+        found.push_back(contact, key.image, ContactFeature::relinearised);
     }
     return found;
 }

@@ -14,7 +14,7 @@ inline constexpr double contact_compliance = 0.25;
 /// s(kappa): a Gaussian walk of variance sigma^2 a step, whose ends beyond a wall are brought back to within
 /// kappa/(1 + kappa) of their distance, is as continuous motion reflected at a wall displaced by s sigma. For kappa = 0
 /// that is -zeta(1/2)/sqrt(2 pi) = 0.5826 (Chernoff 1965; Siegmund 1979).
-/// tests/unit/contact_problem/test_time_step_correction.cpp solves for it.
+/// tests/unit/contact/test_time_step_correction.cpp solves for it.
 inline constexpr double discrete_watching = 0.7380301893698;
 
 /// The shift s(kappa) sqrt(2 kT dt A_ll) of a gap whose rods have the relative mobility A_ll along the normal.

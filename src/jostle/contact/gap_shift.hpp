@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cmath>
+#include <span>
+
+#include "jostle/contact/gap_mobility.hpp"
+#include "jostle/contact/time_step_correction.hpp"
+
+namespace jostle {
+
+/// The gap below which two rods touch: 0, or with the time-step correction s(kappa) sqrt(2 kT dt A_ll) (theory, eq.
+/// 3.5). Holds references to arrays of all rods.
+struct GapShift {
+    std::span<const double> part;           ///< (N) of the bounds below; 0 without the correction
+    std::span<const Vec3> axis = {};        ///< (N)
+    std::span<const RodMobility> own = {};  ///< (N) mobility of each rod; (0) without the correction
+    double kT = 0.0, time_step = 0.0;
+
+    /// What `exact` is at most, of any contact of rods i and j.
+    double bound(std::uint32_t i, std::uint32_t j) const {
+        return i == j ? 2.0 * part[i] : std::sqrt(part[i] * part[i] + part[j] * part[j]);
+    }
+
+    double exact(const Contact& contact) const {
+        if (own.empty()) return 0.0;
+        const std::uint32_t i = contact.i, j = contact.j;
+        return brownian_shift(kT, time_step, gap_mobility(contact, {axis[i], own[i]}, {axis[j], own[j]}));
+    }
+};
+
+}  // namespace jostle

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "jostle/contact/contact_matrix.hpp"
+#include "jostle/lcp/lcp_problem.hpp"
+
+namespace jostle {
+
+/// Contact forces, and what they do to the rods that have contacts (numbered by the ContactMatrix).
+struct ContactSolution {
+    std::vector<double> gamma;                ///< (contacts) >= 0
+    std::vector<std::uint32_t> rods;          ///< (n) rows
+    std::vector<ContactForce> forces;         ///< (n) D gamma
+    std::vector<ContactVelocity> velocities;  ///< (n) M D gamma
+
+    /// As many rods and contacts as the matrix has; new ones are 0.
+    void resize(const ContactMatrix& contact_matrix) {
+        gamma.resize(contact_matrix.size(), 0.0);
+        rods.assign(contact_matrix.rods().begin(), contact_matrix.rods().end());
+        forces.resize(rods.size());
+        velocities.resize(rods.size());
+    }
+};
+
+/// How a solver ended.
+struct SolverOutcome {
+    LcpStatus status = LcpStatus::converged;
+    double residual = 0.0;
+    std::uint64_t iterations = 0;
+    std::uint64_t solves = 0;  ///< 1, and one for every time that contacts were added to a solution
+};
+
+}  // namespace jostle
