@@ -5,6 +5,7 @@
     pair_correlation            g(r) and g2(r)
     structure_factor            S(q)
     clusters                    rods that touch, or nearly
+    frames_of                   the frames of what these take, to choose among them
 
 All take `rods`: the folder of a run; a trajectory file (trajectory.h5, .journal, .gsd, or what `Simulation.record` left); what
 `jostle.load` returned, its `trajectory`, or some of its frames (`run.trajectory[50:]` leaves equilibration out); a Simulation, as it
@@ -19,7 +20,8 @@ They need SciPy, and h5py or gsd for files.
 """
 
 from .displacements import Displacements, Memory, mean_square_displacements, orientation_memory
+from .frames import frames_of
 from .structure import Clusters, PairCorrelation, StructureFactor, clusters, pair_correlation, structure_factor
 
-__all__ = ["Clusters", "Displacements", "Memory", "PairCorrelation", "StructureFactor", "clusters", "mean_square_displacements",
+__all__ = ["Clusters", "Displacements", "Memory", "PairCorrelation", "StructureFactor", "clusters", "frames_of", "mean_square_displacements",
            "orientation_memory", "pair_correlation", "structure_factor"]

@@ -23,3 +23,9 @@ def test_every_page_has_a_script_and_a_link():
     assert pages == {script.stem for script in (ROOT / "python/examples").glob("*.py")} and len(pages) == 3
     for name in pages:
         assert f"{name}.md" in (ROOT / "docs/examples/README.md").read_text()
+
+
+def test_notebooks_run():
+    """Every cell, without Jupyter; they print and draw what is stored in them, but for digits."""
+    done = subprocess.run([ROOT / "tools" / "run_notebook"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
