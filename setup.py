@@ -1,7 +1,8 @@
-"""Builds the extension `_jostle` by CMake. What pip needs to know stands in pyproject.toml.
+"""Builds the extension `_jostle` and the command `jostle` by CMake. What pip needs to know stands in pyproject.toml.
 
-JOSTLE_BUILD: a CMake build folder that has made the package already; it is taken from there.
+JOSTLE_BUILD: a CMake build folder that has made both already; they are taken from there.
 JOSTLE_BUILD_BASE: where to put files of the build; by default build/pip.
+CMAKE_PREFIX_PATH: where libraries of your own lie; CMake reads it itself.
 """
 
 import os
@@ -24,14 +25,25 @@ class BuildByCmake(build_ext):
         target = Path(self.get_ext_fullpath(extension.name))
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(made, target)
+        subprocess.run(["cmake", "--install", build, "--component", "command", "--prefix", target.parent / "command"], check=True)
 
     def _built(self):
         build = BASE / "cmake"
-        subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                        "-DJOSTLE_TESTS=OFF", "-DJOSTLE_PYTHON_MODULE=ON", f"-DPython3_EXECUTABLE={sys.executable}"],
-                       check=True)
-        subprocess.run(["cmake", "--build", build, "--target", "_jostle"], check=True)
+        by_ninja = ["-G", "Ninja"] if shutil.which("ninja") else []
+        subprocess.run(["cmake", "-S", ROOT, "-B", build, *by_ninja, "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
+                        "-DJOSTLE_TESTS=OFF", "-DJOSTLE_PYTHON_MODULE=REQUIRED", f"-DPython3_EXECUTABLE={sys.executable}",
+                        *where_pybind11_is()], check=True)
+        subprocess.run(["cmake", "--build", build, "--parallel", "--target", "_jostle", "jostle"], check=True)
         return build
+
+
+def where_pybind11_is():
+    """pip's pybind11 lies among its Python modules; Debian's is found by CMake itself."""
+    try:
+        import pybind11
+    except ImportError:
+        return []
+    return [f"-Dpybind11_DIR={pybind11.get_cmake_dir()}"]
 
 
 BASE.mkdir(parents=True, exist_ok=True)

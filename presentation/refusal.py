@@ -5,6 +5,8 @@ import importlib
 import signal
 import sys
 
+import other_python
+
 DONE, BAD_INPUT, DISK, STOPPED = 0, 2, 4, 75
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
@@ -16,8 +18,17 @@ class Refusal(Exception):
         super().__init__(f"{subject}: {problem}" + (f". {advice}" if advice else ""))
 
 
+class OtherPython(Exception):
+    """The program is to begin anew, with the Python that stands here."""
+
+
+required = set()  # modules, since the program began
+
+
 def require_modules(packages):
-    """Refuses to go on without the Python modules; `packages` names the Debian package of each."""
+    """Refuses to go on without the Python modules; `packages` names the Debian package of each. Raises OtherPython where another Python has them,
+    and all that were asked for before."""
+    required.update(packages)
     missing = []
     for module, package in packages.items():
         try:
@@ -25,9 +36,12 @@ def require_modules(packages):
         except ImportError:
             missing.append((module, package))
     if missing:
+        python = other_python.that_has(sorted(required))
+        if python:
+            raise OtherPython(python)
         names = " and ".join(module for module, _ in missing)
-        raise Refusal(f"Python module {names}", "is not there",
-                      "Run: apt-get install " + " ".join(package for _, package in missing))
+        raise Refusal(f"Python module {names}", f"is not there for {sys.executable}",
+                      "Run: apt-get install " + " ".join(package for _, package in missing) + f". {other_python.ADVICE}")
 
 
 def on_one_line(text):
@@ -55,6 +69,8 @@ def exit_status(program):
     sys.stdout.reconfigure(errors="surrogateescape")  # names as they are
     try:
         return program() or DONE
+    except OtherPython as other:
+        other_python.go_on(str(other))
     except Refusal as refusal:
         _tell(str(refusal))
         return BAD_INPUT
