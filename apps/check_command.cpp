@@ -71,7 +71,7 @@ std::string aspect_ratios(const Rods& rods) {
     return least == largest ? fmt::format("{:.6g}", least) : fmt::format("{:.6g} to {:.6g}", least, largest);
 }
 
-void print_swimming(const Scene& scene, const Mobility& mobility, const Rods& rods, double dt) {
+void print_swimming(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, double dt) {
     const Swimming swimming = swimming_of(scene);
     const double persistence = persistence_time(scene, mobility, rods.size());
     print("persistence time, free",
@@ -89,7 +89,7 @@ void print_swimming(const Scene& scene, const Mobility& mobility, const Rods& ro
                                    (too_short ? ": the run may be too short to measure the active stress" : ""));
 }
 
-void print_motion(const Scene& scene, const Mobility& mobility, const Rods& rods, double dt) {
+void print_motion(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, double dt) {
     const double kT = thermal_energy(scene);
     const RodMobility rod = mobility.of_rod(0);
     const double diameter = *std::min_element(rods.diameter.begin(), rods.diameter.end());
@@ -116,7 +116,7 @@ void print_motion(const Scene& scene, const Mobility& mobility, const Rods& rods
 }
 
 /// How many of its own clocks the production covers, and how much of it would do for error bars.
-void print_clocks(const Scene& scene, const Mobility& mobility, const Rods& rods, double phi) {
+void print_clocks(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, double phi) {
     constexpr double margin = 1.25;  // over what is needed at the least
     const FreeClocks clocks = free_clocks(scene, mobility, rods);
     if (scene.growth.rate > 0.0 || (clocks.rotation == 0.0 && clocks.diffusion == 0.0)) return;
@@ -154,7 +154,7 @@ struct SpringsOfScene {
 
 /// Reads and checks the springs. Of a scene whose rods are all alike, `population` holds one for all.
 SpringsOfScene springs_of(const Scene& scene, const std::string& scene_path, const Population& population,
-                          const Mobility& mobility, double dt) {
+                          const MobilityOperator& mobility, double dt) {
     if (scene.springs.file.empty()) return {};
     const auto row_of = [&](std::uint64_t id) { return population.rods.size() == 1 ? 0 : id; };
     const auto length_of = [&](std::uint64_t id) { return population.rods.length[row_of(id)]; };
@@ -230,7 +230,8 @@ ExitCode check(const Scene& scene, const std::string& scene_path) {
     if (from_file) beginning_of(scene, scene_path);  // which looks for overlaps
     require_lattice_fits(scene, box);
     const double phi = population.volume / box.volume();
-    const auto mobility = make_mobility(scene, population.rods);
+    const auto model = make_mobility(scene);
+    const auto mobility = model->at(population.rods, box);
     const double dt = time_step(scene, *mobility, population.rods);
     require_countable_steps(scene, dt);
     require_slow_swimmers(scene, population.rods, dt);

@@ -50,8 +50,8 @@ struct PosedProblem {
     PosedProblem(const Crowd& crowd, std::size_t bodies)
         : simulation(settled(crowd, bodies)),
           contacts(contacts_of_step(*simulation)),
-          problem(simulation->rods(), simulation->mobility(), contacts, gap_velocities(), time_step(),
-                  contact_compliance) {}
+          mobility(simulation->mobility().at(simulation->rods(), simulation->box())),
+          problem(simulation->rods(), *mobility, contacts, gap_velocities(), time_step(), contact_compliance) {}
 
     static const Contacts& contacts_of_step(Simulation& simulation) {
         for (int k = 0; k < 10; ++k) simulation.step();  // copies begin to forget each other
@@ -70,6 +70,7 @@ struct PosedProblem {
 
     std::unique_ptr<Simulation> simulation;
     const Contacts& contacts;
+    std::unique_ptr<const MobilityOperator> mobility;
     ContactProblem problem;
 };
 
@@ -176,12 +177,13 @@ void find_contacts_on_list(benchmark::State& state, const Crowd& crowd) {
 void brownian_noise(benchmark::State& state, const Crowd& crowd) {
     const auto simulation_held = settled(crowd);
     const Simulation& simulation = *simulation_held;
-    const BrownianMotion motion(1.0, simulation.mobility());
+    const auto mobility = simulation.mobility().at(simulation.rods(), simulation.box());
+    const BrownianMotion motion(1.0);
     Velocities known(simulation.rods().size());
     StepContext context{1, 0, simulation.settings().time_step};
     for (auto unused : state) {
         ++context.step;
-        motion.add_to(known, simulation.rods(), context);
+        motion.add_velocities(known, simulation.rods(), *mobility, context);
         benchmark::DoNotOptimize(known.linear.data());
     }
     count_items(state, known.size());

@@ -32,7 +32,7 @@ Scene scene_of(const Crowd& crowd) {
     if (crowd.self_propulsion > 0.0) {
         Rods one;
         one.push_back(0, {}, {1, 0, 0}, crowd.length, 1.0);
-        scene.motion.self_propulsion = crowd.self_propulsion * make_mobility(scene, one)->of_rod(0).parallel;
+        scene.motion.self_propulsion = crowd.self_propulsion * make_mobility(scene)->at(one, {})->of_rod(0).parallel;
     }
     return scene;
 }

@@ -27,7 +27,8 @@ void require_bounded(const Vec3& velocity, double most, const char* of, const ch
 
 }  // namespace
 
-void PythonMotion::add_to(Velocities& known, const Rods& rods, const StepContext& context) const {
+void PythonMotion::add_velocities(Velocities& known, const Rods& rods, const MobilityOperator& /*mobility*/,
+                                  const StepContext& context) const {
     const py::gil_scoped_acquire acquire;
     const auto velocities = ask_(context).cast<Numbers>();
     require_shape(velocities, {static_cast<py::ssize_t>(rods.size()), 6}, "velocities of a motion");

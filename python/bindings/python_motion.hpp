@@ -16,7 +16,8 @@ public:
     using Ask = std::function<pybind11::object(const StepContext& context)>;
     explicit PythonMotion(Ask ask) : ask_(std::move(ask)) {}
 
-    void add_to(Velocities& known, const Rods& rods, const StepContext& context) const override;
+    void add_velocities(Velocities& known, const Rods& rods, const MobilityOperator& mobility,
+                        const StepContext& context) const override;
 
 private:
     Ask ask_;

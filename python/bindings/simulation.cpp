@@ -142,7 +142,7 @@ py::array SimulationInPython::velocities(const Numbers& force, const Numbers& to
         given.force[row_of[k]] = forces[k];
         given.torque[row_of[k]] = torques[k];
     }
-    simulation_.mobility().apply(rows, given, found);
+    simulation_.mobility().at(rows, simulation_.box())->apply(given, found);
     Numbers result({count, py::ssize_t{6}});
     for (std::size_t k = 0; k < rows.size(); ++k) {
         const std::uint32_t row = row_of[k];

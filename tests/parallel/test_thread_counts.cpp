@@ -151,7 +151,7 @@ Scene crowd(std::uint64_t count, double length, double volume_fraction) {
 /// Not annealed, which would take longer than the steps.
 Rods pushed_apart(const Scene& scene) {
     Rods rods = scattered_rods(scene, cube_of(scene), std::nullopt);
-    DragMobility mobility = pushing_mobility(true);
+    const DragMobility mobility(pushing_drag(true));
     REQUIRE(push_apart(rods, cube_of(scene), mobility).apart);
     return rods;
 }

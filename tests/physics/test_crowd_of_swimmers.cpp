@@ -48,6 +48,12 @@ double work(const Rods& before, const Rods& after, const Box& box, const std::ve
     return sum;
 }
 
+std::vector<Vec3> propulsion_of(const SelfPropulsion& propulsion, const Simulation& simulation,
+                                const StepContext& context) {
+    const auto mobility = simulation.mobility().at(simulation.rods(), simulation.box());
+    return propulsion.propulsion(simulation.rods(), *mobility, context);
+}
+
 }  // namespace
 
 // Difference of two sides that fluctuate together, five of its standard errors: false-alarm rate below 1e-5, as the
@@ -58,7 +64,8 @@ TEST_CASE("active stress of spheres in a crowd, from paths and from velocities")
     MESSAGE("seed " << scene.seed);
     const Box box{box_edges(scene), {true, true, true}};
     Simulation simulation = assemble(scene, box, make_start(scene, box), {});
-    const double dt = *scene.time.step, D_R = simulation.mobility().of_rod(0).rotational;
+    const RodMobility own = simulation.mobility().at(simulation.rods(), box)->of_rod(0);
+    const double dt = *scene.time.step, D_R = own.rotational;
     const double variance = 2.0 * D_R * dt;
     const double q = (1.0 - variance + variance * variance / 3.0) * std::exp(-2.0 * scene.motion.reversal_rate * dt);
     const SelfPropulsion propulsion(scene.motion.self_propulsion);
@@ -68,7 +75,7 @@ TEST_CASE("active stress of spheres in a crowd, from paths and from velocities")
     double past = 0.0, counted = 0.0;  // v . F dt, sum over the steps since the last look
     for (std::uint64_t step = 1; step <= looks * steps_a_look; ++step) {
         const StepContext context = {scene.seed, simulation.clock().step, dt};
-        const std::vector<Vec3> force = propulsion.forces(simulation.rods(), simulation.mobility(), context);
+        const std::vector<Vec3> force = propulsion_of(propulsion, simulation, context);
         const Rods before = simulation.rods();
         REQUIRE(simulation.step().status == LcpStatus::converged);
         // Rows change places every 512 steps, at the beginning of a step: then the two do not belong together.
@@ -78,7 +85,7 @@ TEST_CASE("active stress of spheres in a crowd, from paths and from velocities")
         }
         if (step % steps_a_look != 0) continue;
         const std::uint64_t look = step / steps_a_look;
-        const std::vector<Vec3> now = propulsion.forces(simulation.rods(), simulation.mobility(), context);
+        const std::vector<Vec3> now = propulsion_of(propulsion, simulation, context);
         const double virial = trace(stress.virial(simulation.rods(), box, now));
         const auto age = static_cast<double>((lag + look % lag) * steps_a_look);
         if (look >= 5 * lag) {
@@ -87,8 +94,8 @@ TEST_CASE("active stress of spheres in a crowd, from paths and from velocities")
         }
         past = counted = 0.0;
     }
-    const double free = 200.0 * scene.motion.self_propulsion * scene.motion.self_propulsion /
-                        simulation.mobility().of_rod(0).parallel / (2.0 * D_R + 2.0 * scene.motion.reversal_rate);
+    const double free = 200.0 * scene.motion.self_propulsion * scene.motion.self_propulsion / own.parallel /
+                        (2.0 * D_R + 2.0 * scene.motion.reversal_rate);
     const Average paths = average(from_paths), both = average(difference);
     REQUIRE(paths.standard_error.has_value());
     REQUIRE(both.standard_error.has_value());

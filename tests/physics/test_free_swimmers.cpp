@@ -58,7 +58,7 @@ struct Swimmers {
         Scene one;
         Rods rods;
         rods.push_back(0, {}, {1, 0, 0}, 2.0, 1.0);
-        return make_mobility(one, rods)->of_rod(0);
+        return make_mobility(one)->at(rods, {})->of_rod(0);
     }
 
     double dt() const { return *scene.time.step; }
@@ -174,8 +174,9 @@ TEST_CASE("diffusion and active stress of free swimmers") {
         for (int step = 1; step <= steps; ++step) {
             REQUIRE(simulation.step().status == LcpStatus::converged);
             if (step % steps_a_look != 0) continue;
-            groups.look(simulation, propulsion.forces(simulation.rods(), simulation.mobility(),
-                                                      {seed, simulation.clock().step, swimmers.dt()}));
+            const auto mobility = simulation.mobility().at(simulation.rods(), box);
+            groups.look(simulation, propulsion.propulsion(simulation.rods(), *mobility,
+                                                          {seed, simulation.clock().step, swimmers.dt()}));
         }
         const std::vector<Vec3> end = unwrapped_by_id(simulation);
         const double t = steps * swimmers.dt();

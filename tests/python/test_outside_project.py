@@ -21,16 +21,17 @@ def succeed(*command):
     return result.stdout
 
 
-def program_of_the_guide():
+def block_of_the_guide(word):
     text = (ROOT / "docs" / "guide" / "extending.md").read_text()
     blocks = re.findall(r"^```cpp\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
-    return next(block for block in blocks if "int main" in block)
+    return next(block for block in blocks if word in block)
 
 
 @pytest.fixture(scope="module")
 def build(tmp_path_factory):
     folder = tmp_path_factory.mktemp("outside")
-    (folder / "guide.cpp").write_text(program_of_the_guide())
+    (folder / "guide.cpp").write_text(block_of_the_guide("int main"))
+    (folder / "constant_force.hpp").write_text(block_of_the_guide("class ConstantForce"))
     succeed("cmake", "--install", os.environ["JOSTLE_BUILD"], "--prefix", folder / "prefix")
     succeed("cmake", "-S", PROJECT, "-B", folder / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
             f"-DCMAKE_PREFIX_PATH={folder / 'prefix'}", f"-DGUIDE_PROGRAM={folder / 'guide.cpp'}")
@@ -47,6 +48,12 @@ def test_outside_project(build, tmp_path):
     assert np.array_equal(printed[:9], stress.total.ravel())
     simulation = jostle.Simulation(jostle.Scene.from_toml(RODS))
     assert np.array_equal(printed[9:], simulation.step().collision_virial.ravel())
+
+
+def test_motion_of_the_guide(build):
+    """Two spheres sediment as Stokes says."""
+    printed = [float(word) for word in succeed(build / "sediment").split()]
+    assert np.allclose(printed, [3 / (3 * np.pi)] * 2, rtol=1e-12)
 
 
 def test_program_of_the_guide(build, tmp_path):

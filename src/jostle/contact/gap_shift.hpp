@@ -3,8 +3,9 @@
 #include <cmath>
 #include <span>
 
-#include "jostle/contact/gap_mobility.hpp"
+#include "jostle/contact/contacts.hpp"
 #include "jostle/contact/time_step_correction.hpp"
+#include "jostle/rods/relative_mobility.hpp"
 
 namespace jostle {
 
@@ -24,7 +25,7 @@ struct GapShift {
     double exact(const Contact& contact) const {
         if (own.empty()) return 0.0;
         const std::uint32_t i = contact.i, j = contact.j;
-        return brownian_shift(kT, time_step, gap_mobility(contact, {axis[i], own[i]}, {axis[j], own[j]}));
+        return brownian_shift(kT, time_step, relative_mobility(contact, {axis[i], own[i]}, {axis[j], own[j]}));
     }
 };
 

@@ -14,7 +14,7 @@ class ContactProblem {
 public:
     /// `b`: (contacts) the velocity of each gap without forces. `compliance`: kappa of the DelassusOperator. `start`:
     /// (contacts) forces to begin from; empty: from 0. Holds references to rods and mobility.
-    ContactProblem(const Rods& rods, const Mobility& mobility, Contacts contacts, std::vector<double> b,
+    ContactProblem(const Rods& rods, const MobilityOperator& mobility, Contacts contacts, std::vector<double> b,
                    double time_step, double compliance = 0.0, std::vector<double> start = {})
         : contacts_(std::move(contacts)),
           contact_matrix_(contacts_, rods.id, included(mobility)),
@@ -53,7 +53,7 @@ public:
 
 private:
     /// A mobility that couples rods moves those without contacts, too.
-    static ContactMatrix::Include included(const Mobility& mobility) {
+    static ContactMatrix::Include included(const MobilityOperator& mobility) {
         return mobility.couples_rods() ? ContactMatrix::Include::all_rods : ContactMatrix::Include::rods_with_contacts;
     }
 

@@ -4,8 +4,17 @@
 
 namespace jostle {
 
-DelassusOperator::DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods, const Mobility& mobility,
-                                   double compliance)
+namespace {
+
+PairOfPoints points_of(const Contact& contact, const Rods& rods) {
+    const double distance = contact.gap + 0.5 * (rods.diameter[contact.i] + rods.diameter[contact.j]);
+    return {contact.i, contact.j, contact.arm_i, contact.arm_j, contact.normal, distance};
+}
+
+}  // namespace
+
+DelassusOperator::DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods,
+                                   const MobilityOperator& mobility, double compliance)
     : contact_matrix_(contact_matrix), all_rods_(rods), mobility_(mobility), compliance_(compliance) {
     extend();
 }
@@ -22,7 +31,10 @@ void DelassusOperator::extend() {
     parallel_for(diagonal_.size() - known_contacts, [&](std::size_t k) {
         const std::size_t l = known_contacts + k;
         const auto [i, j] = contact_matrix_.ends()[l];
-        diagonal_[l] = (1.0 + compliance_) * gap_mobility(contact_matrix_.contacts().contact[l], rods_[i], rods_[j]);
+        const Contact& contact = contact_matrix_.contacts().contact[l];
+        const double own = couples_rods() ? mobility_.relative_mobility(points_of(contact, all_rods_))
+                                          : relative_mobility(contact, rods_[i], rods_[j]);
+        diagonal_[l] = (1.0 + compliance_) * own;
     });
 }
 
@@ -61,7 +73,7 @@ void DelassusOperator::apply_coupling_mobility(std::span<const ContactForce> for
         all_forces.force[rows[place]] = forces[place].force;
         all_forces.torque[rows[place]] = cross(rods_[place].axis, forces[place].lever);
     });
-    mobility_.apply(all_rods_, all_forces, all_velocities);
+    mobility_.apply(all_forces, all_velocities);
     parallel_for(rows.size(), [&](std::size_t place) {
         const std::uint32_t row = rows[place];
         velocities[place] = {all_velocities.linear[row], cross(all_velocities.angular[row], rods_[place].axis)};

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "jostle/contact/contact_matrix.hpp"
-#include "jostle/contact/gap_mobility.hpp"
 #include "jostle/lcp/linear_operator.hpp"
 #include "jostle/mobility/mobility.hpp"
 
@@ -13,7 +12,7 @@ namespace jostle {
 /// application is a gather over the rods that have contacts, the mobility, and a pass over contacts. Holds references.
 class DelassusOperator final : public LinearOperator {
 public:
-    DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods, const Mobility& mobility,
+    DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods, const MobilityOperator& mobility,
                      double compliance = 0.0);
 
     /// Takes in what the contact matrix has been extended by.
@@ -22,7 +21,7 @@ public:
     std::size_t size() const override { return contact_matrix_.size(); }
     void apply(std::span<const double> gamma, std::span<double> rates) const override;
 
-    /// A_ll of each rod's own mobility (for a mobility that couples rods, the local part of it), compliance included.
+    /// A_ll, compliance included.
     std::span<const double> diagonal() const override { return diagonal_; }
 
     /// kappa (D^T M D)_ll
@@ -47,7 +46,7 @@ private:
 
     const ContactMatrix& contact_matrix_;
     const Rods& all_rods_;
-    const Mobility& mobility_;
+    const MobilityOperator& mobility_;
     double compliance_;
     std::vector<MobileRod> rods_;
     std::vector<double> diagonal_;

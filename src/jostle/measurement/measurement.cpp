@@ -32,7 +32,8 @@ Measurement::Measurement(const Scene& scene, const Simulation& simulation, StepS
       sums_(std::move(sums)),
       series_(begun(std::move(earlier_rows), series_columns_)),
       begin_(series_.rows() > 0 ? 0.0 : simulation.clock().time - sums_.steps * simulation.settings().time_step),
-      length_(scene_, simulation.settings().time_step, free_clocks(scene_, simulation.mobility(), simulation.rods()),
+      length_(scene_, simulation.settings().time_step,
+              free_clocks(scene_, *simulation.mobility().at(simulation.rods(), simulation.box()), simulation.rods()),
               begin_),
       frame_steps_(scene_, simulation.settings().time_step, static_cast<double>(simulation.rods().size())) {}
 

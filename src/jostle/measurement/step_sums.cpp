@@ -73,7 +73,8 @@ void StepSums::look_at_swimmers(const Scene& scene, const Simulation& simulation
     if (!active_stress) return;
     const Rods& swimmers = simulation.rods();
     const StepContext context = {scene.seed, simulation.clock().step, simulation.settings().time_step};
-    const std::vector<Vec3> force = SelfPropulsion(swimming_of(scene)).forces(swimmers, simulation.mobility(), context);
+    const auto mobility = simulation.mobility().at(swimmers, simulation.box());
+    const std::vector<Vec3> force = SelfPropulsion(swimming_of(scene)).propulsion(swimmers, *mobility, context);
     active_virial = active_stress->virial(swimmers, simulation.box(), force);
 }
 
@@ -134,7 +135,8 @@ StepSums first_sums(const Scene& scene, const Simulation& simulation) {
     if (scene.motion.self_propulsion == 0.0) return sums;
     const Rods& rods = simulation.rods();
     const double row_time = simulation.settings().time_step * static_cast<double>(scene.output.series_every);
-    const double rows = std::ceil(active_stress_lag(scene, simulation.mobility(), rods.size()) / row_time - 1e-9);
+    const auto mobility = simulation.mobility().at(rods, simulation.box());
+    const double rows = std::ceil(active_stress_lag(scene, *mobility, rods.size()) / row_time - 1e-9);
     sums.active_stress.emplace(static_cast<std::uint64_t>(std::clamp(rows, 1.0, 1e15)));
     sums.active_stress->begin(rods, simulation.box());
     return sums;

@@ -118,8 +118,9 @@ Json box_entry(const Scene& scene, const Box& box) {
 ProductionWindow window_of(const Scene& scene, const Simulation& simulation, const SeriesTable& series, double begin) {
     if (simulation.rods().size() == 0) refuse_to_average("all cells have died", "");
     if (series.rows() == 0) refuse_to_average("the series has no row yet", "Make more steps");
-    ProductionWindow window =
-        production_window(scene, series, free_clocks(scene, simulation.mobility(), simulation.rods()), begin);
+    ProductionWindow window = production_window(
+        scene, series,
+        free_clocks(scene, *simulation.mobility().at(simulation.rods(), simulation.box()), simulation.rods()), begin);
     if (window.first_row >= series.rows())
         refuse_to_average(fmt::format("no row is of production: equilibration takes a time of {:.6g}, and it is {:.6g}",
                                       window.equilibration_time, simulation.clock().time),

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "jostle/mobility/mobility.hpp"
@@ -11,32 +13,24 @@ namespace jostle {
 /// A rod's own mobility, from its length and diameter.
 using DragLaw = std::function<RodMobility(double length, double diameter)>;
 
+struct DragCoefficients;
+
 /// Every rod feels its own drag only: M is block diagonal, one block a rod (theory, eq. 2.9).
 ///
 /// M F = [parallel n n + perpendicular (I - n n)] F,  rotational (I - n n) T; its square root has the square roots of
 /// the three coefficients in their places. Spin about the axis n is left out: torque along n gives nothing.
 class DragMobility final : public Mobility {
 public:
-    /// `law`, which depends on nothing but its arguments, is asked at each `update`, by several threads; what it throws
-    /// passes through `update`, for the first rod of which it does.
+    /// `law`, which depends on nothing but its arguments, is asked by `at` for rods of new lengths or diameters, by
+    /// several threads; what it throws passes through `at`, for the first rod of which it does.
     explicit DragMobility(DragLaw law);
 
-    void update(const Rods& rods) override;
-    void apply(const Rods& rods, const Forces& forces, Velocities& velocities) const override;
-    void add_square_root(const Rods& rods, std::size_t first, std::span<const Normals> normals, double scale,
-                         Velocities& velocities) const override;
-    bool couples_rods() const override { return false; }
-    RodMobility of_rod(std::size_t i) const override { return kinds_[kind_[i]].own; }
+    std::unique_ptr<const MobilityOperator> at(const Rods& rods, const Box& box) const override;
 
 private:
-    /// Rods of one length and diameter.
-    struct Kind {
-        RodMobility own, root;  ///< the coefficients and their square roots
-    };
-
     DragLaw law_;
-    std::vector<std::uint32_t> kind_;  ///< (N)
-    std::vector<Kind> kinds_;
+    mutable std::mutex lock_;  ///< of the last coefficients
+    mutable std::shared_ptr<const DragCoefficients> last_;
 };
 
 }  // namespace jostle

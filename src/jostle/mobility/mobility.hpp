@@ -1,39 +1,66 @@
 #pragma once
 
-#include <span>
+#include <memory>
 
 #include "jostle/math/random.hpp"
+#include "jostle/rods/box.hpp"
 #include "jostle/rods/forces.hpp"
-#include "jostle/rods/rod_mobility.hpp"
+#include "jostle/rods/relative_mobility.hpp"
 #include "jostle/rods/rods.hpp"
 #include "jostle/rods/velocities.hpp"
 
 namespace jostle {
 
-/// The linear map from forces on the rods to their velocities: symmetric, positive semi-definite.
+/// M at one configuration: the linear map from forces on the rods to their velocities, symmetric and positive
+/// semi-definite.
 ///
-/// The only thing that the contact problem knows of the fluid. `rods` in the calls are those of the last `update`.
-class Mobility {
+/// The only thing that motions and the contact problem know of the fluid. Rows are those of the rods that it was made
+/// for; these, the box and the `Mobility` must outlive it, and stay as they are while it is used.
+class MobilityOperator {
 public:
-    virtual ~Mobility() = default;
+    virtual ~MobilityOperator() = default;
+    MobilityOperator(const MobilityOperator&) = delete;
+    MobilityOperator& operator=(const MobilityOperator&) = delete;
 
-    /// Takes over the present lengths and diameters; to be called whenever these change (not when rods move).
-    virtual void update(const Rods& rods) = 0;
+    /// velocities = M forces, (N) each; `velocities` is given that size.
+    virtual void apply(const Forces& forces, Velocities& velocities) const = 0;
 
-    /// velocities = M forces, for the present axes of `rods`.
-    virtual void apply(const Rods& rods, const Forces& forces, Velocities& velocities) const = 0;
+    /// velocities += scale B xi with B B^T = M and standard normal numbers xi, which are a function of seed, step and
+    /// stream of the key and of the rods' ids: Brownian velocities for scale = sqrt(2 kT/dt).
+    virtual void add_square_root(const RandomKey& key, double scale, Velocities& velocities) const = 0;
 
-    /// velocities += scale B xi with B B^T = M, where `normals` holds the standard normal numbers xi, three for forces
-    /// and three for torques: Brownian velocities for scale = sqrt(2 kT/dt). They are those of the rods from row
-    /// `first` on, the others' being 0: a mobility that does not couple rods can so be given them part by part.
-    virtual void add_square_root(const Rods& rods, std::size_t first, std::span<const Normals> normals, double scale,
-                                 Velocities& velocities) const = 0;
+    /// velocities += kT div M, the thermal drift; 0, and nothing to add, where no rod's mobility depends on others.
+    virtual void add_drift(double /*kT*/, Velocities& /*velocities*/) const {}
 
     /// Whether a force on one rod moves others. If not, `of_rod` says everything.
     virtual bool couples_rods() const = 0;
 
     /// The diagonal block of rod `i`: its own mobility.
     virtual RodMobility of_rod(std::size_t i) const = 0;
+
+    /// How fast the points move apart along their normal per force that pushes them apart: A_ll of a contact there. Of
+    /// a mobility that couples rods it is the true one, coupling included; here that of the rods' own blocks.
+    virtual double relative_mobility(const PairOfPoints& points) const {
+        const auto rod = [this](std::size_t row) { return MobileRod{rods_.axis[row], of_rod(row)}; };
+        return jostle::relative_mobility(points, rod(points.i), rod(points.j));
+    }
+
+protected:
+    explicit MobilityOperator(const Rods& rods) : rods_(rods) {}
+    const Rods& rods() const { return rods_; }
+
+private:
+    const Rods& rods_;
+};
+
+/// A model of the fluid: gives the mobility of any configuration.
+class Mobility {
+public:
+    virtual ~Mobility() = default;
+
+    /// M of these rods as they stand, with their present lengths and diameters. May keep for the next call what costs
+    /// time to find; may be called by several threads.
+    virtual std::unique_ptr<const MobilityOperator> at(const Rods& rods, const Box& box) const = 0;
 };
 
 }  // namespace jostle

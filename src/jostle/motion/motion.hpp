@@ -1,8 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
+#include "jostle/mobility/mobility.hpp"
+#include "jostle/rods/forces.hpp"
 #include "jostle/rods/rods.hpp"
 #include "jostle/rods/velocities.hpp"
 
@@ -15,13 +20,19 @@ struct StepContext {
     double time_step = 0.0;
 };
 
-/// A contribution to the velocity that is known before contacts are resolved (U_known).
+/// What moves rods before contacts are resolved: its forces times M, and its velocities, are part of U_known.
 class Motion {
 public:
     virtual ~Motion() = default;
 
-    /// Adds this motion's velocities to `known`, one row a rod.
-    virtual void add_to(Velocities& known, const Rods& rods, const StepContext& context) const = 0;
+    /// Forces and torques on the rods (N), if it exerts any. The step adds up those of all motions and applies M once.
+    virtual std::optional<Forces> forces(const Rods& /*rods*/, const StepContext& /*context*/) const {
+        return std::nullopt;
+    }
+
+    /// Adds this motion's velocities to `known` (N), beside what its forces give. `mobility` is M of these rods.
+    virtual void add_velocities(Velocities& /*known*/, const Rods& /*rods*/, const MobilityOperator& /*mobility*/,
+                                const StepContext& /*context*/) const {}
 
     /// Rows of the rods that exchange head and tail once the step has been made, n -> -n: the same bodies, and no point
     /// of one moves.
@@ -29,5 +40,9 @@ public:
         return {};
     }
 };
+
+/// The sum of the forces of all motions; none if no motion exerts any.
+std::optional<Forces> sum_of_forces(std::span<const std::unique_ptr<Motion>> motions, const Rods& rods,
+                                    const StepContext& context);
 
 }  // namespace jostle

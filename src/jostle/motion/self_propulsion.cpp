@@ -20,7 +20,8 @@ SelfPropulsion::SelfPropulsion(const Swimming& swimming)
                   "is no rate", ">= 0, finite");
 }
 
-void SelfPropulsion::add_to(Velocities& known, const Rods& rods, const StepContext& context) const {
+void SelfPropulsion::add_velocities(Velocities& known, const Rods& rods, const MobilityOperator& /*mobility*/,
+                                    const StepContext& context) const {
     assert(known.size() == rods.size());
     const std::vector<double> speed = speeds(rods, context.seed);
     parallel_for(rods.size(), [&](std::size_t i) {
@@ -58,7 +59,8 @@ std::vector<double> SelfPropulsion::speeds(const Rods& rods, std::uint64_t seed)
     return speed;
 }
 
-std::vector<Vec3> SelfPropulsion::forces(const Rods& rods, const Mobility& mobility, const StepContext& context) const {
+std::vector<Vec3> SelfPropulsion::propulsion(const Rods& rods, const MobilityOperator& mobility,
+                                             const StepContext& context) const {
     std::vector<Vec3> force(rods.size());
     const std::vector<double> speed = speeds(rods, context.seed);
     parallel_for(rods.size(), [&](std::size_t i) {

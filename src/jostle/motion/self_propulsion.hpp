@@ -28,15 +28,16 @@ public:
     explicit SelfPropulsion(const Swimming& swimming);
     explicit SelfPropulsion(double speed) : SelfPropulsion(Swimming{.speed = speed}) {}
 
-    void add_to(Velocities& known, const Rods& rods, const StepContext& context) const override;
+    void add_velocities(Velocities& known, const Rods& rods, const MobilityOperator& mobility,
+                        const StepContext& context) const override;
     std::vector<std::uint32_t> turned_round(const Rods& rods, const StepContext& context) const override;
 
     /// The rods' own speeds (N), whatever they do now.
     std::vector<double> speeds(const Rods& rods, std::uint64_t seed) const;
 
     /// The forces U_i n/mu_parallel that would drag the rods along as they swim in this step (N); 0 for a rod that
-    /// tumbles.
-    std::vector<Vec3> forces(const Rods& rods, const Mobility& mobility, const StepContext& context) const;
+    /// tumbles. Swimmers exert none on the fluid: `forces` has none.
+    std::vector<Vec3> propulsion(const Rods& rods, const MobilityOperator& mobility, const StepContext& context) const;
 
 private:
     Swimming swimming_;

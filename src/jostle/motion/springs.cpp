@@ -9,20 +9,13 @@
 
 namespace jostle {
 
-Springs::Springs(std::vector<Spring> springs, const Box& box, const Mobility& mobility)
-    : springs_(std::move(springs)), box_(box), mobility_(mobility) {
+Springs::Springs(std::vector<Spring> springs) : springs_(std::move(springs)) {
     for (const Spring& spring : springs_) {
         require_value(std::isfinite(spring.stiffness) && spring.stiffness >= 0.0, "stiffness", spring.stiffness,
                       "is no stiffness of a spring", ">= 0, finite");
         require_value(std::isfinite(spring.rest_length) && spring.rest_length >= 0.0, "rest_length", spring.rest_length,
                       "is no rest length of a spring", ">= 0, finite");
     }
-}
-
-Velocities Springs::velocities(const Rods& rods, std::span<const SpringPull> pulls) const {
-    Velocities own(rods.size());
-    mobility_.apply(rods, spring_forces(springs_, pulls, rods), own);
-    return own;
 }
 
 void Springs::turn_round(std::span<const std::uint64_t> ids) {

@@ -14,11 +14,16 @@ namespace jostle {
 /// Explicit in time: steps must be short beside what springs need to relax, see `spring_relaxation`.
 class Springs {
 public:
-    /// `mobility` must outlive this object and be up to date with the rods.
-    Springs(std::vector<Spring> springs, const Box& box, const Mobility& mobility);
+    /// Throws InputError for a stiffness or a rest length that is negative or not finite.
+    explicit Springs(std::vector<Spring> springs);
 
     /// Their pulls as the rods stand, one a spring. Throws InputError if a spring names a rod that is not there.
-    std::vector<SpringPull> pulls(const Rods& rods) const { return spring_pulls(springs_, rods, box_); }
+    std::vector<SpringPull> pulls(const Rods& rods, const Box& box) const { return spring_pulls(springs_, rods, box); }
+
+    /// Forces and torques of these pulls on the rods (N).
+    Forces forces(const Rods& rods, std::span<const SpringPull> pulls) const {
+        return spring_forces(springs_, pulls, rods);
+    }
 
     /// As they are now: rods that turned round have taken the springs' points along.
     const std::vector<Spring>& springs() const { return springs_; }
@@ -26,13 +31,8 @@ public:
     /// Rods of these ids have exchanged head and tail: a point s along the old axis is at -s along the new one.
     void turn_round(std::span<const std::uint64_t> ids);
 
-    /// The part of U_known (N) that these pulls give.
-    Velocities velocities(const Rods& rods, std::span<const SpringPull> pulls) const;
-
 private:
     std::vector<Spring> springs_;
-    Box box_;
-    const Mobility& mobility_;
 };
 
 using MobilityOfRod = std::function<RodMobility(std::uint64_t id)>;

@@ -27,7 +27,7 @@ Swimming swimming_of(const Scene& scene) {
     return swimming;
 }
 
-double fastest_diffusion(double kT, const Mobility& mobility, std::size_t rod_count) {
+double fastest_diffusion(double kT, const MobilityOperator& mobility, std::size_t rod_count) {
     double fastest = 0.0;
     for (std::size_t i = 0; i < rod_count; ++i) {
         const RodMobility rod = mobility.of_rod(i);
@@ -36,7 +36,7 @@ double fastest_diffusion(double kT, const Mobility& mobility, std::size_t rod_co
     return fastest;
 }
 
-double persistence_time(const Scene& scene, const Mobility& mobility, std::size_t rod_count) {
+double persistence_time(const Scene& scene, const MobilityOperator& mobility, std::size_t rod_count) {
     const double kT = thermal_energy(scene);
     const double turns = scene.motion.tumble_rate + 2.0 * scene.motion.reversal_rate;
     double longest = 0.0;
@@ -45,7 +45,7 @@ double persistence_time(const Scene& scene, const Mobility& mobility, std::size_
     return longest;
 }
 
-double active_stress_lag(const Scene& scene, const Mobility& mobility, std::size_t rod_count) {
+double active_stress_lag(const Scene& scene, const MobilityOperator& mobility, std::size_t rod_count) {
     if (scene.output.active_stress_lag) return *scene.output.active_stress_lag;
     const double persistence = persistence_time(scene, mobility, rod_count);
     return std::isfinite(persistence) ? automatic_lag * persistence : 0.1 * scene.time.production;

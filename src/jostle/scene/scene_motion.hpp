@@ -17,14 +17,14 @@ double thermal_energy(const Scene& scene);
 Swimming swimming_of(const Scene& scene);
 
 /// D_t of the fastest rod of an assembly.
-double fastest_diffusion(double kT, const Mobility& mobility, std::size_t rod_count);
+double fastest_diffusion(double kT, const MobilityOperator& mobility, std::size_t rod_count);
 
 /// How long a free swimmer keeps its direction, 1/(2 D_R + tumble rate + 2 reversal rate): of the first `rod_count`
 /// rods the one that does so longest; infinite without rotation, tumbles and reversals.
-double persistence_time(const Scene& scene, const Mobility& mobility, std::size_t rod_count);
+double persistence_time(const Scene& scene, const MobilityOperator& mobility, std::size_t rod_count);
 
 /// `output.active_stress_lag`, a time; "auto": 5 persistence times, or a tenth of `time.production` where those are
 /// infinite.
-double active_stress_lag(const Scene& scene, const Mobility& mobility, std::size_t rod_count);
+double active_stress_lag(const Scene& scene, const MobilityOperator& mobility, std::size_t rod_count);
 
 }  // namespace jostle

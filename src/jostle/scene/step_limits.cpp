@@ -114,7 +114,7 @@ double require_slow_springs(const Scene& scene, std::span<const Spring> springs,
         "Use a shorter time.step or softer springs");
 }
 
-void require_room_between_images(const Scene& scene, const Box& box, const Mobility& mobility, const Rods& rods,
+void require_room_between_images(const Scene& scene, const Box& box, const MobilityOperator& mobility, const Rods& rods,
                                  double time_step) {
     if (scene.contact.model != ContactModel::hard) return;
     for (std::size_t i = 0; i < rods.size(); ++i) {
@@ -134,7 +134,7 @@ void require_room_between_images(const Scene& scene, const Box& box, const Mobil
     }
 }
 
-double potential_relaxation(const Scene& scene, const Mobility& mobility, const Rods& rods, double time_step) {
+double potential_relaxation(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, double time_step) {
     double largest = 0.0;
     for (std::size_t i = 0; i < rods.size(); ++i) {
         const RodMobility rod = mobility.of_rod(i);
@@ -146,7 +146,7 @@ double potential_relaxation(const Scene& scene, const Mobility& mobility, const 
     return time_step * curvature * 2.0 * largest;
 }
 
-void require_soft_potential(const Scene& scene, const Mobility& mobility, const Rods& rods, double time_step) {
+void require_soft_potential(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, double time_step) {
     if (scene.contact.model != ContactModel::wca) return;
     const double relaxation = potential_relaxation(scene, mobility, rods, time_step);
     if (relaxation <= 2.0) return;

@@ -31,15 +31,15 @@ double require_slow_springs(const Scene& scene, std::span<const Spring> springs,
 
 /// Throws InputError (box.edges) where a step turns a rod by more, in the root mean square per axis, than its own
 /// periodic images let it be inclined to either side: it could not be told what holds it.
-void require_room_between_images(const Scene& scene, const Box& box, const Mobility& mobility, const Rods& rods,
+void require_room_between_images(const Scene& scene, const Box& box, const MobilityOperator& mobility, const Rods& rods,
                                  double time_step);
 
 /// Of contact.model = "wca": over the overlap of two rods that meet with 5 kT (one encounter in 150), how far apart
 /// their force throws them in a step, at most: dt U'' 2 m (theory, eq. 2.20), with m the larger mobility of a rod's
 /// end. Above 2 they come to lie farther apart than they overlapped, and throw others.
-double potential_relaxation(const Scene& scene, const Mobility& mobility, const Rods& rods, double time_step);
+double potential_relaxation(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, double time_step);
 
 /// Throws InputError (contact.energy) where that is above 2. Nothing where rods are hard.
-void require_soft_potential(const Scene& scene, const Mobility& mobility, const Rods& rods, double time_step);
+void require_soft_potential(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, double time_step);
 
 }  // namespace jostle

@@ -126,7 +126,8 @@ Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_pa
             beginning.annealing = now;
             if (watch) watch(now);
         });
-        const auto mobility = make_mobility(scene, beginning.rods);
+        const auto model = make_mobility(scene);
+        const auto mobility = model->at(beginning.rods, box);
         const double step = time_step(scene, *mobility, beginning.rods);
         require_countable_steps(scene, step);
         require_slow_swimmers(scene, beginning.rods, step);

@@ -116,8 +116,6 @@ private:
     }
 
     Simulation brownian(const Stretch& stretch) const {
-        auto mobility = std::make_unique<DragMobility>(mobility_);
-        mobility->update(rods_);
         const double thinnest = *std::min_element(rods_.diameter.begin(), rods_.diameter.end());
         const double rms = stretch.rms * thinnest;
         SimulationSettings settings;
@@ -128,10 +126,11 @@ private:
         settings.lcp.tolerance = tolerance * thinnest;
         settings.lcp.max_iterations = 1000;
         std::vector<std::unique_ptr<Motion>> motions;
-        motions.push_back(std::make_unique<BrownianMotion>(settings.kT, *mobility));
+        motions.push_back(std::make_unique<BrownianMotion>(settings.kT));
         // Random numbers of its own, far from those of the run.
         const Clock clock{(std::uint64_t{1} << 39) + static_cast<std::uint64_t>(done_.steps), 0.0};
-        return Simulation(box_, rods_, clock, std::move(mobility), std::move(motions), settings);
+        return Simulation(box_, rods_, clock, std::make_unique<DragMobility>(pushing_drag(true)), std::move(motions),
+                          settings);
     }
 
     static double mean(std::span<const double> values) {
@@ -148,7 +147,7 @@ private:
     const Box& box_;
     std::uint64_t seed_;
     const AnnealingWatch& watch_;
-    DragMobility mobility_ = pushing_mobility(true);
+    DragMobility mobility_{pushing_drag(true)};
     Annealing done_;
     std::vector<double> Z_, order_;  ///< of the last stretch, step by step
 };

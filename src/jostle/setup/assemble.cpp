@@ -33,16 +33,14 @@ DragOfViscosity drag_of(MobilityModel model) {
 
 }  // namespace
 
-std::unique_ptr<Mobility> make_mobility(const Scene& scene, const Rods& rods) {
-    auto mobility = std::make_unique<DragMobility>(
+std::unique_ptr<Mobility> make_mobility(const Scene& scene) {
+    return std::make_unique<DragMobility>(
         [drag = drag_of(scene.mobility.model), viscosity = scene.fluid.viscosity](double length, double diameter) {
             return drag(length, diameter, viscosity);
         });
-    mobility->update(rods);
-    return mobility;
 }
 
-double time_step(const Scene& scene, const Mobility& mobility, const Rods& rods) {
+double time_step(const Scene& scene, const MobilityOperator& mobility, const Rods& rods) {
     const double thinnest = smallest_diameter(scene, rods);
     double step = 0.0;
     if (scene.time.step) {
@@ -57,8 +55,8 @@ double time_step(const Scene& scene, const Mobility& mobility, const Rods& rods)
 
 namespace {
 
-void check_springs(const Scene& scene, const Rods& rods, const Mobility& mobility, std::span<const Spring> springs,
-                   double time_step) {
+void check_springs(const Scene& scene, const Rods& rods, const MobilityOperator& mobility,
+                   std::span<const Spring> springs, double time_step) {
     if (springs.empty() && !scene.springs.file.empty())
         throw InputError({.key = "springs.file", .value = scene.springs.file, .problem = "the springs were not read"});
     std::unordered_map<std::uint64_t, std::size_t> rows;
@@ -88,7 +86,8 @@ std::optional<StressField> make_field(const Scene& scene, const Box& box) {
 
 Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock, std::vector<Spring> springs,
                     std::vector<LastForce> last_forces) {
-    auto mobility = make_mobility(scene, rods);
+    auto model = make_mobility(scene);
+    const auto mobility = model->at(rods, box);
     SimulationSettings settings;
     settings.seed = scene.seed;
     settings.kT = thermal_energy(scene);
@@ -118,10 +117,10 @@ Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock, 
     if (scene.growth.rate > 0.0) settings.growth = scene.growth;
     check_springs(scene, rods, *mobility, springs, settings.time_step);
     std::vector<std::unique_ptr<Motion>> motions;
-    if (settings.kT > 0.0) motions.push_back(std::make_unique<BrownianMotion>(settings.kT, *mobility));
+    if (settings.kT > 0.0) motions.push_back(std::make_unique<BrownianMotion>(settings.kT));
     if (scene.motion.self_propulsion != 0.0) motions.push_back(std::make_unique<SelfPropulsion>(swimming_of(scene)));
-    return Simulation(box, std::move(rods), clock, std::move(mobility), std::move(motions), settings,
-                      std::move(springs), std::move(last_forces));
+    return Simulation(box, std::move(rods), clock, std::move(model), std::move(motions), settings, std::move(springs),
+                      std::move(last_forces));
 }
 
 }  // namespace jostle

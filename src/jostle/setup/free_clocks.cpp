@@ -8,7 +8,7 @@
 
 namespace jostle {
 
-FreeClocks free_clocks(const Scene& scene, const Mobility& mobility, const Rods& rods) {
+FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, const Rods& rods) {
     FreeClocks clocks;
     const bool turn = std::any_of(rods.length.begin(), rods.length.end(), [](double length) { return length > 0.0; });
     const double persistence = turn ? persistence_time(scene, mobility, rods.size()) : 0.0;

@@ -9,7 +9,7 @@ namespace jostle {
 
 /// The clocks of the slowest rod, were it alone; 0 without Brownian motion (and tumbles or reversals, which turn a rod,
 /// too), that of rotation also where all are spheres.
-FreeClocks free_clocks(const Scene& scene, const Mobility& mobility, const Rods& rods);
+FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, const Rods& rods);
 
 /// By how much slower than one alone rods turn in a crowd, roughly: before a run, and for rods that are alike.
 ///

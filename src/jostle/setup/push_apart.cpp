@@ -40,15 +40,14 @@ void move(Rods& rods, const Box& box, const ContactSolution& solution, double li
 
 }  // namespace
 
-DragMobility pushing_mobility(bool turning) {
-    return DragMobility([turning](double length, double diameter) {
+DragLaw pushing_drag(bool turning) {
+    return [turning](double length, double diameter) {
         return RodMobility{1.0, 1.0, turning ? 12.0 / (length * length + diameter * diameter) : 0.0};
-    });
+    };
 }
 
-PushApartResult push_apart(Rods& rods, const Box& box, Mobility& mobility) {
+PushApartResult push_apart(Rods& rods, const Box& box, const Mobility& mobility) {
     PushApartResult result;
-    mobility.update(rods);
     const double thinnest = rods.size() == 0 ? 1.0 : *std::min_element(rods.diameter.begin(), rods.diameter.end());
     NeighbourList neighbours(0.5 * thinnest);
     const std::vector<double> reaches(rods.size(), reach * thinnest);
@@ -63,7 +62,8 @@ PushApartResult push_apart(Rods& rods, const Box& box, Mobility& mobility) {
         parallel_for(b.size(), [&](std::size_t l) {
             b[l] = std::max(contacts.contact[l].gap - free_space * thinnest, -opened_each_round * thinnest);
         });
-        ContactProblem problem(rods, mobility, contacts, std::move(b), 1.0);
+        const auto mobility_now = mobility.at(rods, box);
+        ContactProblem problem(rods, *mobility_now, contacts, std::move(b), 1.0);
         LcpSettings settings;
         settings.tolerance = apart_tolerance * thinnest;
         settings.max_iterations = iterations_each_round;

@@ -11,15 +11,15 @@ struct PushApartResult {
     int rounds = 0;        ///< contact problems solved
 };
 
-/// A mobility for starts, that needs no fluid: unit drag, and the rotation that a thin rod of that drag would have, by
+/// The drag of starts, that needs no fluid: unit drag, and the rotation that a thin rod of that drag would have, by
 /// which its ends go as far as its centre does, or none.
-DragMobility pushing_mobility(bool turning);
+DragLaw pushing_drag(bool turning);
 
 /// Moves overlapping rods until none overlaps, by contact forces alone: repeated contact problems without any known
 /// motion.
 ///
 /// Every round opens each overlap by at most a tenth of the thinnest diameter (the gap is linear only so far) and aims
 /// at a hair of free space between touching rods. Gives up after 2000 rounds, or when numbers are no longer finite.
-PushApartResult push_apart(Rods& rods, const Box& box, Mobility& mobility);
+PushApartResult push_apart(Rods& rods, const Box& box, const Mobility& mobility);
 
 }  // namespace jostle

@@ -24,10 +24,8 @@ Rods at_random(Rods rods, const Box& box, bool turning, const Scene& scene, cons
     result.overlap = largest_overlap(rods, box);
     if (result.overlap > 0.0 && turning)
         result = anneal(rods, box, scene.seed, watch);
-    else {
-        DragMobility mobility = pushing_mobility(turning);
-        result = push_apart(rods, box, mobility);
-    }
+    else
+        result = push_apart(rods, box, DragMobility(pushing_drag(turning)));
     if (!result.apart) {
         throw InputError(
             {.key = "rods.start",

@@ -62,7 +62,7 @@ void Simulation::add_springs(std::vector<Spring> springs) {
         throw InputError({.key = "springs.file",
                           .problem = "springs hold rods that stay, and cells divide and die",
                           .suggestion = "Remove [springs] or [growth]"});
-    springs_.emplace(std::move(springs), box_, *mobility_);
+    springs_.emplace(std::move(springs));
 }
 
 /// Makes everything that belongs to rows anew.
@@ -94,18 +94,25 @@ void Simulation::find_search_ranges() {
 
 /// What follows from the sizes of the rods alone: these change where cells grow.
 void Simulation::find_sizes() {
-    mobility_->update(rods_);
+    sizes_changed_ = true;
     mean_diameter_ = mean_of(rods_.diameter);
     mean_length_ = mean_of(rods_.length);
     ranges_.range = settings_.range;
     if (settings_.wca_energy > 0.0)
         ranges_.range =
             (wca_range - 1.0) * parallel_max(rods_.size(), 0.0, [this](std::size_t i) { return rods_.diameter[i]; });
+}
+
+/// M as the step begins, and each rod's part in the shift of a gap, which depends on sizes alone.
+void Simulation::find_mobility() {
+    mobility_at_start_ = mobility_->at(rods_, box_);
+    if (!sizes_changed_) return;
+    sizes_changed_ = false;
     largest_shift_.assign(rods_.size(), 0.0);
     if (!settings_.brownian_correction) return;
     own_mobility_.resize(rods_.size());
     parallel_for(rods_.size(), [&](std::size_t i) {
-        const RodMobility rod = own_mobility_[i] = mobility_->of_rod(i);
+        const RodMobility rod = own_mobility_[i] = mobility_at_start_->of_rod(i);
         const double half = 0.5 * rods_.length[i];
         const double largest = std::max(rod.parallel, rod.perpendicular) + half * half * rod.rotational;
         largest_shift_[i] = brownian_shift(settings_.kT, settings_.time_step, largest);

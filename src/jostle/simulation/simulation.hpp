@@ -71,6 +71,7 @@ public:
     }
     /// Who was born and who died after the last step.
     std::span<const LineageEvent> lineage() const { return lineage_; }
+    /// The model of the fluid: `at(rods(), box())` is M of the rods as they stand.
     const Mobility& mobility() const { return *mobility_; }
     const SimulationSettings& settings() const { return settings_; }
 
@@ -89,7 +90,7 @@ private:
     void renumber();
     void lengthen();
     void find_known_motion();
-    void pull_springs();
+    void add_velocities_of_forces(const StepContext& context);
     StepGeometry geometry() const;
     void collide(Contacts found, const StepGeometry& geometry, StepReport& report);
     void repel(Contacts found, StepReport& report);
@@ -102,6 +103,7 @@ private:
 
     void take_over_rods();
     void find_sizes();
+    void find_mobility();
     void find_search_ranges();
     std::vector<double> gap_velocities(const Contacts& contacts) const;
     EndConfiguration displace(const ContactMatrix& contact_matrix, const ContactSolution& solution);
@@ -115,6 +117,7 @@ private:
     Rods rods_;
     Clock clock_;
     std::unique_ptr<Mobility> mobility_;
+    std::unique_ptr<const MobilityOperator> mobility_at_start_;  ///< of the step that is being made
     std::vector<std::unique_ptr<Motion>> motions_;
     SimulationSettings settings_;
     std::optional<Springs> springs_;
@@ -125,6 +128,7 @@ private:
     bool reordered_ = false;  ///< rods near each other are near each other in memory
     ThreadChoice threads_;
     CollisionSearch search_;
+    bool sizes_changed_ = true;  ///< since the last step
     double mean_diameter_ = 0.0, mean_length_ = 0.0;
     std::vector<RodMobility> own_mobility_;  ///< (N) with the time-step correction
     std::vector<double> largest_shift_;      ///< (N) each rod's part in the shift of a gap, at most

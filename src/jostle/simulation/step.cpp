@@ -70,6 +70,7 @@ StepReport Simulation::step() {
         lengthening.emplace(rods_);
         lengthen();
     }
+    find_mobility();
     find_known_motion();
     timer.finish(StepPhase::known_velocity);
     const StepGeometry geometry = this->geometry();
@@ -105,9 +106,9 @@ void Simulation::lengthen() {
 void Simulation::find_known_motion() {
     auto& [linear, angular] = known_.velocity;
     parallel_for(rods_.size(), [&](std::size_t i) { linear[i] = angular[i] = Vec3{}; });
-    for (const auto& cause : motions_)
-        cause->add_to(known_.velocity, rods_, {settings_.seed, clock_.step, settings_.time_step});
-    if (springs_) pull_springs();
+    const StepContext context{settings_.seed, clock_.step, settings_.time_step};
+    for (const auto& cause : motions_) cause->add_velocities(known_.velocity, rods_, *mobility_at_start_, context);
+    add_velocities_of_forces(context);
     parallel_for(rods_.size(), [&](std::size_t i) {
         auto& [centre, axis] = known_.end;
         centre[i] = rods_.centre[i] + settings_.time_step * linear[i];
@@ -118,14 +119,24 @@ void Simulation::find_known_motion() {
     find_search_ranges();
 }
 
-// Theory 2.7: the springs' part of U_known.
-void Simulation::pull_springs() {
-    pulls_ = springs_->pulls(rods_);
-    by_springs_ = springs_->velocities(rods_, pulls_);
-    parallel_for(rods_.size(), [&](std::size_t i) {
-        known_.velocity.linear[i] += by_springs_.linear[i];
-        known_.velocity.angular[i] += by_springs_.angular[i];
-    });
+// M is applied once to the sum of the motions' forces; and to those of springs, whose velocities their stress needs
+// (theory 2.7).
+void Simulation::add_velocities_of_forces(const StepContext& context) {
+    const auto add = [&](const Velocities& velocities) {
+        parallel_for(rods_.size(), [&](std::size_t i) {
+            known_.velocity.linear[i] += velocities.linear[i];
+            known_.velocity.angular[i] += velocities.angular[i];
+        });
+    };
+    if (const auto forces = sum_of_forces(motions_, rods_, context)) {
+        Velocities velocities;
+        mobility_at_start_->apply(*forces, velocities);
+        add(velocities);
+    }
+    if (!springs_) return;
+    pulls_ = springs_->pulls(rods_, box_);
+    mobility_at_start_->apply(springs_->forces(rods_, pulls_), by_springs_);
+    add(by_springs_);
 }
 
 // Theory 2.2: what the search for contacts needs to know of the step.
@@ -142,7 +153,7 @@ void Simulation::collide(Contacts found, const StepGeometry& geometry, StepRepor
     const double compliance = corrects_brownian_motion() ? contact_compliance : 0.0;
     std::vector<double> b = gap_velocities(found), start;
     if (settings_.warm_start) start = warm_start_.guess(found, rods_.id);
-    ContactProblem problem(rods_, *mobility_, std::move(found), std::move(b), settings_.time_step, compliance,
+    ContactProblem problem(rods_, *mobility_at_start_, std::move(found), std::move(b), settings_.time_step, compliance,
                            std::move(start));
     const auto solver = make_contact_solver(problem, settings_.method, settings_.lcp);
     int relinearisations = settings_.look_again ? max_relinearisations : 0;
@@ -167,7 +178,7 @@ void Simulation::collide(Contacts found, const StepGeometry& geometry, StepRepor
 void Simulation::repel(Contacts found, StepReport& report) {
     ContactSolution solution;
     solution.gamma = wca_forces(found, rods_, settings_.wca_energy);
-    ContactProblem problem(rods_, *mobility_, std::move(found), {}, settings_.time_step);
+    ContactProblem problem(rods_, *mobility_at_start_, std::move(found), {}, settings_.time_step);
     problem.complete(solution);
     displace(problem.contact_matrix(), solution);
     keep(std::move(problem), std::move(solution), report);

@@ -17,16 +17,16 @@ TEST_CASE("A is symmetric and positive semi-definite, and its diagonal is as tol
         std::mt19937_64 engine(seed);
         const Box box{edges, {true, true, true}};
         const Rods rods = test::thrown(20, box, 5.0, 1.0, engine);
-        DragMobility mobility(
+        const DragMobility model(
             [](double length, double diameter) { return finite_aspect_ratio_drag(length, diameter, 1.0); });
-        mobility.update(rods);
+        const auto mobility = model.at(rods, box);
         NeighbourList neighbours(0.1);
         const std::vector<double> reach(rods.size(), 0.1);
         neighbours.update(rods, box, reach);
         Contacts contacts;
         find_contacts(rods, box, neighbours, reach, contacts);
         const ContactMatrix D(contacts, rods.id);
-        const DelassusOperator A(D, rods, mobility);
+        const DelassusOperator A(D, rods, *mobility);
         const auto count = static_cast<Eigen::Index>(A.size());
         REQUIRE(count > 20);
 

@@ -32,10 +32,9 @@ Rods equal_rods(std::size_t count) {
 }
 
 Velocities brownian_velocities(const Rods& rods, const StepContext& context) {
-    DragMobility mobility(drag_law);
-    mobility.update(rods);
+    const DragMobility model(drag_law);
     Velocities known(rods.size());
-    BrownianMotion(kT, mobility).add_to(known, rods, context);
+    BrownianMotion(kT).add_velocities(known, rods, *model.at(rods, {}), context);
     return known;
 }
 
@@ -116,13 +115,11 @@ TEST_CASE("numbers belong to the id, not to the row; the velocity is added and s
     CHECK(chosen.linear[0] == whole.linear[4]);
     CHECK(chosen.angular[1] == whole.angular[1]);
 
-    DragMobility mobility(drag_law);
-    mobility.update(rods);
-    const BrownianMotion motion(kT, mobility);
+    const DragMobility model(drag_law);
     Velocities known(rods.size());
     known.linear[2] = {100, 0, 0};
     known.angular[2] = {0, 100, 0};
-    motion.add_to(known, rods, {3, 7, 0.04});
+    BrownianMotion(kT).add_velocities(known, rods, *model.at(rods, {}), {3, 7, 0.04});
     CHECK(norm(known.linear[2] - Vec3{100, 0, 0} - 0.5 * whole.linear[2]) < 1e-13);
     CHECK(norm(known.angular[2] - Vec3{0, 100, 0} - 0.5 * whole.angular[2]) < 1e-13);
 }
@@ -141,14 +138,13 @@ TEST_CASE("the same bits for any number of threads") {
 
 TEST_CASE("kT: zero gives no motion; negative or not finite is refused by key") {
     const Rods rods = equal_rods(2);
-    DragMobility mobility(drag_law);
-    mobility.update(rods);
+    const DragMobility model(drag_law);
     Velocities known(rods.size());
-    BrownianMotion(0.0, mobility).add_to(known, rods, {1, 1, 0.1});
+    BrownianMotion(0.0).add_velocities(known, rods, *model.at(rods, {}), {1, 1, 0.1});
     CHECK(known.linear[1] == Vec3{0, 0, 0});
     for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
         try {
-            BrownianMotion(bad, mobility);
+            BrownianMotion{bad};
             FAIL_CHECK("accepted kT = " << bad);
         } catch (const InputError& error) {
             CHECK(error.parts().key == "fluid.kT");

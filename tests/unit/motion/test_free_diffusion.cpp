@@ -66,16 +66,17 @@ struct FreeRods {
     }
 
     void move(double speed) {
-        DragMobility mobility(
+        const DragMobility model(
             [](double length, double diameter) { return finite_aspect_ratio_drag(length, diameter, 1.0); });
-        mobility.update(rods);
-        const BrownianMotion brownian(kT, mobility);
+        const BrownianMotion brownian(kT);
         const SelfPropulsion propulsion(speed);
         for (std::uint64_t step = 0; step < step_count; ++step) {
             Velocities known(rods.size());
-            brownian.add_to(known, rods, {seed, step, dt});
+            const Box box;
+            const auto mobility = model.at(rods, box);
+            brownian.add_velocities(known, rods, *mobility, {seed, step, dt});
             measure(known);
-            if (speed != 0.0) propulsion.add_to(known, rods, {seed, step, dt});
+            if (speed != 0.0) propulsion.add_velocities(known, rods, *mobility, {seed, step, dt});
             parallel_for(rods.size(), [&](std::size_t i) {
                 rods.centre[i] += dt * known.linear[i];
                 rods.axis[i] = rotated(rods.axis[i], dt * known.angular[i]);

@@ -28,13 +28,19 @@ Rods equal_rods(std::size_t count) {
     return rods;
 }
 
+void add_swimming(Velocities& known, const SelfPropulsion& propulsion, const Rods& rods, const StepContext& context) {
+    const DragMobility model(
+        [](double length, double diameter) { return finite_aspect_ratio_drag(length, diameter, 1.0); });
+    propulsion.add_velocities(known, rods, *model.at(rods, {}), context);
+}
+
 /// Turns the rods by what the motion says of steps `first` to `last` - 1, and counts the steps in which a rod turns.
 std::vector<int> turn(Rods& rods, const SelfPropulsion& propulsion, std::uint64_t first, std::uint64_t last,
                       double dt) {
     std::vector<int> turning(rods.size(), 0);
     for (std::uint64_t step = first; step < last; ++step) {
         Velocities known(rods.size());
-        propulsion.add_to(known, rods, {seed, step, dt});
+        add_swimming(known, propulsion, rods, {seed, step, dt});
         for (std::size_t i = 0; i < rods.size(); ++i) {
             const bool turns = squared_norm(known.angular[i]) > 0.0;
             CHECK((squared_norm(known.linear[i]) > 0.0) != turns);
@@ -64,12 +70,12 @@ TEST_CASE("every rod, spheres too, gets the speed along its axis, added to what 
     Velocities known(2);
     known.linear[0] = {1, 1, 1};
     known.angular[1] = {0, 0, 7};
-    SelfPropulsion(2.5).add_to(known, rods, {1, 1, 0.1});
+    add_swimming(known, SelfPropulsion(2.5), rods, {1, 1, 0.1});
     CHECK(norm(known.linear[0] - Vec3{1, 2.5, 3}) < 1e-15);
     CHECK(known.linear[1] == Vec3{-2.5, 0, 0});
     CHECK(known.angular[0] == Vec3{0, 0, 0});
     CHECK(known.angular[1] == Vec3{0, 0, 7});
-    SelfPropulsion(-2.5).add_to(known, rods, {1, 1, 0.1});
+    add_swimming(known, SelfPropulsion(-2.5), rods, {1, 1, 0.1});
     CHECK(known.linear[1] == Vec3{0, 0, 0});
 }
 
@@ -90,7 +96,7 @@ TEST_CASE("rods' own speeds: mean and deviation; they belong to the id, for life
     CHECK(propulsion.speeds(few, seed) == std::vector<double>{speed[77], speed[3]});
     for (const std::uint64_t step : {0, 1000}) {
         Velocities known(2);
-        propulsion.add_to(known, few, {seed, step, 0.1});
+        add_swimming(known, propulsion, few, {seed, step, 0.1});
         CHECK(known.linear[0] == speed[77] * oblique);
         CHECK(known.linear[1] == speed[3] * -oblique);
     }
@@ -170,7 +176,7 @@ TEST_CASE("tumbles are a function of seed, id and step: no history, no rows, no 
     std::vector<std::vector<std::uint32_t>> turned(2);
     for (const int k : {0, 1}) {
         parallel::set_thread_count(1 + 2 * k);
-        propulsion.add_to(known[k], rods, context);
+        add_swimming(known[k], propulsion, rods, context);
         turned[k] = propulsion.turned_round(rods, context);
     }
     parallel::set_thread_count(threads_before);
@@ -180,7 +186,7 @@ TEST_CASE("tumbles are a function of seed, id and step: no history, no rows, no 
     Rods one;
     one.push_back(2718, {0, 0, 0}, oblique, 4.0, 1.0);
     Velocities alone(1);
-    propulsion.add_to(alone, one, context);
+    add_swimming(alone, propulsion, one, context);
     CHECK(alone.linear[0] == known[0].linear[2718]);
     CHECK(alone.angular[0] == known[0].angular[2718]);
 }
@@ -188,15 +194,17 @@ TEST_CASE("tumbles are a function of seed, id and step: no history, no rows, no 
 TEST_CASE("the propulsion's force is U/mu_parallel along the axis, and none in a tumble") {
     const SelfPropulsion propulsion(Swimming{.speed = 2.0, .tumble_rate = 3.0, .tumble_time = 0.2});
     const Rods rods = equal_rods(200);
-    DragMobility mobility(
+    const DragMobility model(
         [](double length, double diameter) { return finite_aspect_ratio_drag(length, diameter, 1.0); });
-    mobility.update(rods);
+    const Box box;
+    const auto mobility = model.at(rods, box);
     const StepContext context = {seed, 1000, 0.01};
-    const std::vector<Vec3> force = propulsion.forces(rods, mobility, context);
+    const std::vector<Vec3> force = propulsion.propulsion(rods, *mobility, context);
     Velocities known(rods.size());
-    propulsion.add_to(known, rods, context);
+    add_swimming(known, propulsion, rods, context);
     for (std::size_t i = 0; i < rods.size(); ++i)
-        CHECK(norm(mobility.of_rod(i).parallel * force[i] - known.linear[i]) < 1e-14);
+        CHECK(norm(mobility->of_rod(i).parallel * force[i] - known.linear[i]) < 1e-14);
+    CHECK(!propulsion.forces(rods, context).has_value());  // or the fluid would feel it
 }
 
 TEST_CASE("numbers that make no sense are refused by key") {

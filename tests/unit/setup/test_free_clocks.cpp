@@ -14,7 +14,7 @@ namespace {
 FreeClocks clocks_of(const Scene& scene, double length) {
     Rods rods;
     rods.push_back(0, {}, {1, 0, 0}, length, 1.0);
-    return free_clocks(scene, *make_mobility(scene, rods), rods);
+    return free_clocks(scene, *make_mobility(scene)->at(rods, {}), rods);
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ TEST_CASE("a rod turns in 1/(2 D_R); tumbles turn it, too; without noise nothing
     Scene scene;
     Rods rods;
     rods.push_back(0, {}, {1, 0, 0}, 5.0, 1.0);
-    const double alone = 0.5 / make_mobility(scene, rods)->of_rod(0).rotational;
+    const double alone = 0.5 / make_mobility(scene)->at(rods, {})->of_rod(0).rotational;
     CHECK(clocks_of(scene, 5.0).rotation == doctest::Approx(alone));
     scene.motion.self_propulsion = 1.0;
     scene.motion.tumble_rate = 1.0 / alone;

@@ -99,9 +99,11 @@ TEST_CASE("off the centre a spring turns its rod: velocities and stress by hand"
     CHECK(norm(forces.torque[0] - Vec3{0, -6, 0}) < 1e-15);
     CHECK(norm(forces.torque[1]) == 0.0);
 
-    const auto mobility = make_mobility(scene, rods);
-    const Springs held(springs, box, *mobility);
-    const Velocities velocities = held.velocities(rods, held.pulls(rods));
+    const auto model = make_mobility(scene);
+    const auto mobility = model->at(rods, box);
+    const Springs held(springs);
+    Velocities velocities;
+    mobility->apply(held.forces(rods, held.pulls(rods, box)), velocities);
     CHECK(norm(velocities.linear[0] - Vec3{0, 0, 4.0 * mobility->of_rod(0).perpendicular}) < 1e-15);
     CHECK(norm(velocities.angular[0] - Vec3{0, -6.0 * mobility->of_rod(0).rotational, 0}) < 1e-15);
     CHECK(norm(velocities.linear[1] - Vec3{0, 0, -4.0 * mobility_of_sphere}) < 1e-15);

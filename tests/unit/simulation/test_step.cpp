@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "jostle/contact/time_step_correction.hpp"
+#include "jostle/motion/self_propulsion.hpp"
 #include "jostle/setup/assemble.hpp"
 #include "jostle/setup/largest_overlap.hpp"
 #include "jostle/setup/start.hpp"
@@ -71,7 +72,10 @@ TEST_CASE("collisions beyond the first reach are found: a sphere flung through a
     for (std::size_t k = 0; k < count; ++k)
         rods.push_back(k, {1.0 + 1.05 * static_cast<double>(k), 5, 5}, {1, 0, 0}, 0.0, 1.0);
     struct OnlyFirst final : Motion {
-        void add_to(Velocities& known, const Rods&, const StepContext&) const override { known.linear[0].x += 0.5; }
+        void add_velocities(Velocities& known, const Rods&, const MobilityOperator&,
+                            const StepContext&) const override {
+            known.linear[0].x += 0.5;
+        }
     };
     std::vector<std::unique_ptr<Motion>> motions;
     motions.push_back(std::make_unique<OnlyFirst>());
@@ -79,12 +83,90 @@ TEST_CASE("collisions beyond the first reach are found: a sphere flung through a
     SimulationSettings settings;
     settings.time_step = 1.0;
     settings.lcp.tolerance = 1e-9;
-    Simulation simulation(box, rods, {}, make_mobility(scene, rods), std::move(motions), settings);
+    Simulation simulation(box, rods, {}, make_mobility(scene), std::move(motions), settings);
     const StepReport report = simulation.step();
     CHECK(report.status == LcpStatus::converged);
     CHECK(report.solves > 1);
     CHECK(largest_overlap(simulation.rods(), box) < 1e-6);
     CHECK(simulation.rods().centre[count - 1].x >= 1.0 + 1.05 * static_cast<double>(count - 1));
+}
+
+namespace {
+
+/// The same force and torque on every rod.
+class ConstantForce final : public Motion {
+public:
+    ConstantForce(const Vec3& force, const Vec3& torque) : force_(force), torque_(torque) {}
+    std::optional<Forces> forces(const Rods& rods, const StepContext&) const override {
+        Forces forces(rods.size());
+        forces.force.assign(rods.size(), force_);
+        forces.torque.assign(rods.size(), torque_);
+        return forces;
+    }
+
+private:
+    Vec3 force_, torque_;
+};
+
+/// Counts how often M is applied.
+class CountingMobility final : public Mobility {
+public:
+    explicit CountingMobility(int& applied) : applied_(applied) {}
+    std::unique_ptr<const MobilityOperator> at(const Rods& rods, const Box&) const override {
+        return std::make_unique<Operator>(rods, applied_);
+    }
+
+private:
+    struct Operator final : MobilityOperator {
+        Operator(const Rods& all, int& count) : MobilityOperator(all), applied(count) {}
+        void apply(const Forces& forces, Velocities& velocities) const override {
+            ++applied;
+            velocities.linear.resize(forces.size());
+            velocities.angular.resize(forces.size());
+            for (std::size_t i = 0; i < forces.size(); ++i) {
+                velocities.linear[i] = 2.0 * forces.force[i];
+                velocities.angular[i] = 3.0 * forces.torque[i];
+            }
+        }
+        void add_square_root(const RandomKey&, double, Velocities&) const override {}
+        bool couples_rods() const override { return false; }
+        RodMobility of_rod(std::size_t) const override { return {2.0, 2.0, 3.0}; }
+        int& applied;
+    };
+    int& applied_;
+};
+
+}  // namespace
+
+TEST_CASE("forces of motions are added up, and M is applied once to the sum; springs' forces apart, for their stress") {
+    Rods rods;
+    rods.push_back(0, {5, 5, 5}, {0, 0, 1}, 2.0, 1.0);
+    rods.push_back(1, {8, 5, 5}, {0, 0, 1}, 0.0, 1.0);
+    SimulationSettings settings;
+    settings.time_step = 0.01;
+    const auto after = [&](bool pushed, std::vector<Spring> springs, int& applied) {
+        std::vector<std::unique_ptr<Motion>> motions;
+        motions.push_back(std::make_unique<SelfPropulsion>(0.5));
+        for (int k = 0; pushed && k < 2; ++k)
+            motions.push_back(std::make_unique<ConstantForce>(Vec3{0, 1, 0}, Vec3{4, 0, 0}));
+        Simulation simulation(box, rods, {}, std::make_unique<CountingMobility>(applied), std::move(motions), settings,
+                              std::move(springs));
+        REQUIRE(simulation.step().status == LcpStatus::converged);
+        return simulation.rods();
+    };
+    int applied = 0;
+    Rods moved = after(true, {}, applied);
+    CHECK(applied == 1);
+    CHECK(norm(moved.centre[0] - Vec3{5, 5.04, 5.005}) < 1e-14);
+    CHECK(norm(moved.axis[0] - Vec3{0, -std::sin(0.24), std::cos(0.24)}) < 1e-14);
+    applied = 0;
+    moved = after(true, {{0, 1, 0.0, 0.0, 2.0, 7.0, {}}}, applied);  // pulls by 7
+    CHECK(applied == 2);
+    CHECK(norm(moved.centre[0] - Vec3{5.14, 5.04, 5.005}) < 1e-14);
+    CHECK(norm(moved.centre[1] - Vec3{7.86, 5.04, 5.005}) < 1e-14);
+    applied = 0;
+    after(false, {}, applied);
+    CHECK(applied == 0);
 }
 
 TEST_CASE("no pair overlaps after any step, against brute force: rods and spheres, in thin boxes, hard and compliant") {

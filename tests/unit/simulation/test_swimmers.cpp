@@ -35,7 +35,7 @@ Scene crowd() {
 std::string refused_key(const Scene& scene) {
     try {
         const Rods rods = make_start(crowd(), box);
-        require_slow_swimmers(scene, rods, time_step(scene, *make_mobility(scene, rods), rods));
+        require_slow_swimmers(scene, rods, time_step(scene, *make_mobility(scene)->at(rods, {}), rods));
     } catch (const InputError& error) {
         CHECK(!error.parts().allowed.empty());
         return error.parts().key;
@@ -84,14 +84,15 @@ TEST_CASE("two rods head-on: they stop at touching, and push with U_0/mu_paralle
     Simulation simulation = assemble(scene, wide, rods, {});
     for (int step = 0; step < 3; ++step) REQUIRE(simulation.step().status == LcpStatus::converged);
     const StepReport report = simulation.step();
-    const double force = 2.0 / simulation.mobility().of_rod(0).parallel;
+    const double force = 2.0 / simulation.mobility().at(simulation.rods(), simulation.box())->of_rod(0).parallel;
     CHECK(simulation.rods().centre[1].x - simulation.rods().centre[0].x == doctest::Approx(4.0).epsilon(1e-5));
     double sum = 0.0;
     for (const double gamma : simulation.contact_solution().gamma) sum += gamma;
     CHECK(sum == doctest::Approx(force).epsilon(1e-3));
     CHECK(report.collision_virial(0, 0) == doctest::Approx(4.0 * force).epsilon(1e-3));
     const SelfPropulsion propulsion(2.0);
-    const auto forces = propulsion.forces(simulation.rods(), simulation.mobility(), {1, 4, 0.01});
+    const auto mobility = simulation.mobility().at(simulation.rods(), simulation.box());
+    const auto forces = propulsion.propulsion(simulation.rods(), *mobility, {1, 4, 0.01});
     CHECK(norm(forces[0] - Vec3{force, 0, 0}) < 1e-12 * force);
     CHECK(norm(forces[1] + Vec3{force, 0, 0}) < 1e-12 * force);
 }
@@ -155,7 +156,8 @@ TEST_CASE("tumbles of growing cells are judged at the length that these reach") 
 TEST_CASE("persistence time and lag of the active stress") {
     Scene scene = crowd();
     const Rods rods = make_start(scene, box);
-    const auto mobility = make_mobility(scene, rods);
+    const auto model = make_mobility(scene);
+    const auto mobility = model->at(rods, box);
     const double D_R = mobility->of_rod(0).rotational;
     const double time = 1.0 / (2.0 * D_R + 5.0 + 40.0);
     CHECK(persistence_time(scene, *mobility, rods.size()) == doctest::Approx(time));
