@@ -25,7 +25,8 @@ std::string path_of(const std::string& program) {
     throw refused_file(source, "this part of jostle is not there", "Build or install jostle again");
 }
 
-constexpr const char* advice = "JOSTLE_PYTHON has to name Python 3.11 or later, by its path or as PATH finds it";
+constexpr const char* advice =
+    "Run: apt-get install python3, or name Python 3.11 or later by JOSTLE_PYTHON: its path, or what PATH finds";
 
 /// The first program of this name in the folders of PATH that are absolute, or an empty text.
 std::string on_path(const std::string& name) {
