@@ -57,7 +57,19 @@ void print(const char* name, const std::string& value) {
 }
 
 std::string with_unit(double value, const Scene& scene, Dimension dimension) {
-    return fmt::format("{:.6g} {}", value, unit_of(scene, dimension));
+    const ReadableUnit unit = readable_unit(scene, unit_of(scene, dimension));
+    return fmt::format("{:.6g} {}", value * unit.factor, unit.name);
+}
+
+/// What numbers in the scene are in.
+std::string units_text(const Scene& scene) {
+    if (scene.units.system == UnitSystem::micro) return "um, s, pN (stress in pN/um2 = Pa)";
+    const auto unit = [&](Dimension dimension) { return readable_unit_of(scene, dimension); };
+    std::string text = fmt::format("length {}, ", unit(dimension::length));
+    if (scene.fluid.kT == 1.0) return text + fmt::format("energy kT, time {}", unit(dimension::time));
+    text += fmt::format("viscosity {}, time time_unit", unit(dimension::viscosity));
+    if (scene.growth.rate > 0.0) text += " = " + with_unit(1.0, scene, dimension::time);
+    return text;
 }
 
 /// L/D, or the range of it.
@@ -95,12 +107,13 @@ void print_motion(const Scene& scene, const MobilityOperator& mobility, const Ro
     const double diameter = *std::min_element(rods.diameter.begin(), rods.diameter.end());
     const double rotation = kT * rod.rotational;
     if (kT > 0.0) {
+        const ReadableUnit diffusion = readable_unit(scene, unit_of(scene, {2, -1, 0}));
         const double fastest = fastest_diffusion(kT, mobility, rods.size());
-        print("D_parallel, D_perpendicular",
-              fmt::format("{:.6g}, {:.6g} {}", kT * rod.parallel, kT * rod.perpendicular, unit_of(scene, {2, -1, 0})));
+        print("D_parallel, D_perpendicular", fmt::format("{:.6g}, {}", kT * rod.parallel * diffusion.factor,
+                                                         with_unit(kT * rod.perpendicular, scene, {2, -1, 0})));
         print("D_t of the fastest rod", with_unit(fastest, scene, {2, -1, 0}));
-        print("D_R, 1/D_R", fmt::format("{:.6g} {}, {:.6g} {}", rotation, unit_of(scene, dimension::rate),
-                                        1.0 / rotation, unit_of(scene, dimension::time)));
+        print("D_R, 1/D_R",
+              with_unit(rotation, scene, dimension::rate) + ", " + with_unit(1.0 / rotation, scene, dimension::time));
         print("dt D_R", fmt::format("{:.3g}", dt * rotation));
         print("rms step / D", fmt::format("{:.4g}", std::sqrt(2.0 * fastest * dt) / diameter));
     }
@@ -128,7 +141,7 @@ void print_clocks(const Scene& scene, const MobilityOperator& mobility, const Ro
     if (clocks.rotation > 0.0) {
         print("rotation time, alone", with_unit(clocks.rotation, scene, dimension::time));
         print("rotation time, in the crowd",
-              "about " + fmt::format("{:.2g} {}", slowdown * clocks.rotation, unit_of(scene, dimension::time)));
+              fmt::format("about {:.2g} {}", slowdown * clocks.rotation, readable_unit_of(scene, dimension::time)));
         covered = in_times(production / clocks.rotation, "rotation time");
         if (production < least_rotation_times * clocks.rotation)
             needed = fmt::format("{} rotation times are needed", least_rotation_times);
@@ -144,7 +157,7 @@ void print_clocks(const Scene& scene, const MobilityOperator& mobility, const Ro
     const double enough =
         margin * std::max(least_rotation_times * slowdown * clocks.rotation, least_diffusion_times * clocks.diffusion);
     print("production for error bars",
-          fmt::format("about {:.2g} {} (an estimate)", enough, unit_of(scene, dimension::time)));
+          fmt::format("about {:.2g} {} (an estimate)", enough, readable_unit_of(scene, dimension::time)));
 }
 
 struct SpringsOfScene {
@@ -241,16 +254,13 @@ ExitCode check(const Scene& scene, const std::string& scene_path) {
     const auto field = make_field(scene, box);
 
     std::printf("%s\n# what follows from it\n", to_toml(scene).c_str());
-    print("units", scene.units.system == UnitSystem::micro
-                       ? "um, s, pN (stress in pN um-2 = Pa)"
-                       : fmt::format("length {}, energy {}, time {}", unit_of(scene, dimension::length),
-                                     unit_of(scene, dimension::energy), unit_of(scene, dimension::time)));
+    print("units", units_text(scene));
     print("N", fmt::format("{:.0f}", population.count));
     print("L/D", aspect_ratios(population.rods));
     print("phi", fmt::format("{:.6g}", phi));
     if (const std::string warning = start_warning(scene, phi); !warning.empty()) print("WARNING", warning);
     print("box", fmt::format("{:.6g} x {:.6g} x {:.6g} {}", box.edges.x, box.edges.y, box.edges.z,
-                             unit_of(scene, dimension::length)));
+                             readable_unit_of(scene, dimension::length)));
     print("time step", with_unit(dt, scene, dimension::time));
     print_motion(scene, *mobility, population.rods, dt);
     if (scene.motion.self_propulsion != 0.0) print_swimming(scene, *mobility, population.rods, dt);

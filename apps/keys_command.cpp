@@ -68,7 +68,7 @@ std::string allowed_values(const nlohmann::json& key) {
     text = fmt::format("{} {} to {}{}", lower ? "from" : "above", bound("at_least"), upper ? "" : "below ",
                        bound("at_most"));
     if (!whole && !key["micro_unit"].get<std::string>().empty())
-        text += fmt::format(" ({})", key["micro_unit"].get<std::string>());
+        text += fmt::format(" ({})", readable_unit(key["micro_unit"].get<std::string>()));
     if (key["auto"].get<bool>()) text += ", or \"auto\"";
     return text;
 }

@@ -18,22 +18,9 @@
 #include "sweep_options.hpp"
 #include "verify_command.hpp"
 #include "waiting_threads.hpp"
+#include "wall_time.hpp"
 
 namespace {
-
-/// Seconds of "H:MM" or "H:MM:SS"; an empty optional if the text is no such time.
-std::optional<double> seconds_of(const std::string& text) {
-    int hours = 0, minutes = 0, seconds = 0, used = 0;
-    const bool with_seconds = std::sscanf(text.c_str(), "%5d:%2d:%2d%n", &hours, &minutes, &seconds, &used) == 3;
-    if (!with_seconds) {
-        seconds = 0;
-        if (std::sscanf(text.c_str(), "%5d:%2d%n", &hours, &minutes, &used) != 2) return std::nullopt;
-    }
-    if (static_cast<std::size_t>(used) != text.size() || hours < 0 || minutes < 0 || minutes > 59 || seconds < 0 ||
-        seconds > 59)
-        return std::nullopt;
-    return 3600.0 * hours + 60.0 * minutes + seconds;
-}
 
 std::string joined(int count, char** words) {
     std::string line;
@@ -107,9 +94,12 @@ ExitCode obey(int argc, char** argv) {
     run->add_option("--threads", options.threads,
                     "number of threads, on which the result does not depend; default: one for every 2000 rods, at most "
                     "one a processor");
-    run->add_option("--walltime", wall_time, "stop, ready to go on, before this time is over (H:MM or H:MM:SS)")
+    run->add_option("--walltime", wall_time,
+                    "stop, ready to go on, before this time is over: 23:50, 1:30:00, 24h, 90min or 1-12:00:00")
         ->check([](const std::string& text) {
-            return seconds_of(text) ? std::string{} : "--walltime " + text + ": expected H:MM or H:MM:SS, as 23:50";
+            return seconds_of(text)
+                       ? std::string{}
+                       : "--walltime " + text + ": is no time; write 23:50, 1:30:00, 24h, 1h30min or 1-12:00:00";
         });
     run->add_flag("--fresh", options.fresh, "start anew; an earlier run in the folder is moved aside, not deleted");
     CLI::Option* quiet = run->add_flag("--quiet", options.quiet, "print errors only");

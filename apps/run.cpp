@@ -205,6 +205,6 @@ ExitCode Run::finish() {
     if (options_.json)
         std::fputs(text.c_str(), stdout);
     else if (!options_.quiet)
-        std::printf("%s%s\n", summary_text(summary).c_str(), files_and_report().c_str());
+        std::printf("%s%s\n", summary_text(summary, scene_).c_str(), files_and_report().c_str());
     return ExitCode::done;
 }

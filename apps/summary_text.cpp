@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "jostle/scene/units.hpp"
+
 using Json = nlohmann::ordered_json;
 
 namespace {
@@ -11,11 +13,17 @@ namespace {
 constexpr std::pair<const char*, const char*> checks[] = {{"total_stress_ratio", "total stress"},
                                                           {"collision_stress_ratio", "collision stress"}};
 
-std::string mean_text(const Json& entry) {
+jostle::ReadableUnit unit_in(const Json& entry, const jostle::Scene& scene) {
+    return jostle::readable_unit(scene, entry.value("unit", ""));
+}
+
+std::string mean_text(const Json& entry, const jostle::Scene& scene) {
     if (entry["mean"].is_null()) return "not defined";
-    std::string text = fmt::format("{:.5g}", entry["mean"].get<double>());
-    if (!entry["standard_error"].is_null()) text += fmt::format(" +- {:.2g}", entry["standard_error"].get<double>());
-    return entry.contains("unit") ? text + " " + entry["unit"].get<std::string>() : text;
+    const auto [factor, unit] = unit_in(entry, scene);
+    std::string text = fmt::format("{:.5g}", factor * entry["mean"].get<double>());
+    if (!entry["standard_error"].is_null())
+        text += fmt::format(" +- {:.2g}", factor * entry["standard_error"].get<double>());
+    return unit.empty() ? text : text + " " + unit;
 }
 
 /// What the standard error rests on, or why there is none; `withheld`: from all, for one reason.
@@ -25,14 +33,15 @@ std::string support_text(const Json& entry, bool withheld) {
     return fmt::format("(no error bar: {})", entry.value("no_standard_error_because", "not defined"));
 }
 
-std::string principal_text(const Json& principal) {
+std::string principal_text(const Json& principal, const jostle::Scene& scene) {
+    const auto [factor, unit] = unit_in(principal, scene);
     std::string text;
     for (std::size_t k = 0; k < 3; ++k) {
-        text += fmt::format("{}{:.5g}", k > 0 ? ", " : "", principal["mean"][k].get<double>());
+        text += fmt::format("{}{:.5g}", k > 0 ? ", " : "", factor * principal["mean"][k].get<double>());
         if (const Json& error = principal["standard_error"][k]; !error.is_null())
-            text += fmt::format(" +- {:.2g}", error.get<double>());
+            text += fmt::format(" +- {:.2g}", factor * error.get<double>());
     }
-    return text + " " + principal["unit"].get<std::string>();
+    return text + " " + unit;
 }
 
 std::string line(const char* name, const std::string& value) {
@@ -47,7 +56,7 @@ std::string range_text(const Json& range) {
     return from == to ? from : from + " to " + to;
 }
 
-std::string text_of_checks(const Json& of_summary, bool withheld) {
+std::string text_of_checks(const Json& of_summary, const jostle::Scene& scene, bool withheld) {
     if (of_summary.empty()) return "";
     std::string text = "stress ratio along/across the director, measured and in equilibrium\n";
     for (const auto& [key, name] : checks) {
@@ -58,7 +67,7 @@ std::string text_of_checks(const Json& of_summary, bool withheld) {
                                                                  : ": disagrees";
         text +=
             line(fmt::format("  {}", name).c_str(),
-                 fmt::format("{}, in equilibrium {}{}  {}", mean_text(check["measured"]),
+                 fmt::format("{}, in equilibrium {}{}  {}", mean_text(check["measured"], scene),
                              range_text(check["in_equilibrium"]), verdict, support_text(check["measured"], withheld)));
     }
     return text;
@@ -78,7 +87,7 @@ std::string warnings_of_checks(const Json& of_summary) {
 
 }  // namespace
 
-std::string summary_text(const Json& summary) {
+std::string summary_text(const Json& summary, const jostle::Scene& scene) {
     constexpr std::pair<const char*, const char*> averages[] = {{"Z", "Z"},
                                                                 {"pressure", "pressure"},
                                                                 {"pressure_collision", "collision pressure"},
@@ -92,9 +101,10 @@ std::string summary_text(const Json& summary) {
     std::string text;
     for (const auto& [key, name] : averages)
         if (summary.contains(key))
-            text += line(name, mean_text(summary[key]) + "  " + support_text(summary[key], withheld));
-    text += text_of_checks(summary["checks"], withheld);
-    text += line("principal stresses", principal_text(summary["principal_stresses_collision"]) + "  (of collisions)");
+            text += line(name, mean_text(summary[key], scene) + "  " + support_text(summary[key], withheld));
+    text += text_of_checks(summary["checks"], scene, withheld);
+    text += line("principal stresses",
+                 principal_text(summary["principal_stresses_collision"], scene) + "  (of collisions)");
     text += line("equilibration time", fmt::format("{:.4g}", summary["equilibration_time"].get<double>()));
     text += line("equilibrium", (withheld ? "WARNING: " : "") + equilibrium["in_words"].get<std::string>());
     text += line("largest overlap", fmt::format("{:.2e} D", summary["max_overlap"].get<double>()));

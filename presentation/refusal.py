@@ -17,6 +17,9 @@ class Refusal(Exception):
     def __init__(self, subject, problem, advice=""):
         super().__init__(f"{subject}: {problem}" + (f". {advice}" if advice else ""))
 
+    def lines(self):
+        return [str(self)]
+
 
 class OtherPython(Exception):
     """The program is to begin anew, with the Python that stands here."""
@@ -55,8 +58,8 @@ def _number(letter):
     return letter.encode("unicode_escape").decode("ascii")
 
 
-def _tell(text):
-    print(f"jostle: {on_one_line(text)}", file=sys.stderr)
+def _tell(*lines):
+    print("jostle: " + "\n".join(map(on_one_line, lines)), file=sys.stderr)
 
 
 def _stop(*_):
@@ -72,7 +75,7 @@ def exit_status(program):
     except OtherPython as other:
         other_python.go_on(str(other))
     except Refusal as refusal:
-        _tell(str(refusal))
+        _tell(*refusal.lines())
         return BAD_INPUT
     except OSError as error:
         room = "make room, or " if error.errno in FULL else ""

@@ -1,23 +1,21 @@
 """Units as people write them: µ D³/kT, not kT-1 D3 mu."""
 
-NAMES = {"mu": "µ", "um": "µm", "energy_unit": "E", "length_unit": "ℓ", "viscosity_unit": "η"}
+NAMES = {"mu": "µ", "um": "µm", "length_unit": "ℓ", "viscosity_unit": "η", "time_unit": "τ"}
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-ORDER = ("mu", "viscosity_unit", "pN", "kT", "energy_unit")  # these first
+ORDER = ("mu", "viscosity_unit", "pN", "kT")  # these first
 
 
 def readable(unit, scene):
     """(factor, unit) for a unit as the files write it: a number times the factor is in the unit, which is "" for 1."""
     factors = _factors(unit)
     rate = scene.get("growth", {}).get("rate", 0)
-    energies = factors.pop("energy_unit", 0)
-    if not rate or not energies:
+    times = factors.pop("time_unit", 0)
+    if not rate or not times:
         return 1.0, text(unit)
-    # The energy unit of cells without much noise means nothing. It is viscosity length^3/time, and the time that they know is
-    # what they need to lengthen by D.
-    for name, power in (("mu" if "viscosity_unit" not in factors else "viscosity_unit", energies), ("D", 3 * energies),
-                        ("D", -energies), ("growth rate", energies)):
+    # The time that cells without much noise know is what they need to lengthen by D.
+    for name, power in (("D", times), ("growth rate", -times)):
         factors[name] = factors.get(name, 0) + power
-    return (scene["rods"]["diameter"] / rate) ** energies, _text(factors)
+    return (rate / scene["rods"]["diameter"]) ** times, _text(factors)
 
 
 def text(unit):

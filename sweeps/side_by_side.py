@@ -81,8 +81,8 @@ def ask(jostle, scene, *words):
     """What `jostle check SCENE WORDS` tells. Raises BadScene."""
     done = subprocess.run([jostle, "check", scene, *words], capture_output=True, text=True, check=False)
     if done.returncode != 0:
-        lines = done.stderr.strip().splitlines() or [f"jostle check ended with status {done.returncode}"]
-        raise BadScene(lines[-1].removeprefix("jostle: "))
+        words = done.stderr.strip() or f"jostle check ended with status {done.returncode}"
+        raise BadScene(words[("\n" + words).rfind("\njostle: "):].removeprefix("jostle: ") if "jostle: " in words else words.splitlines()[-1])
     resolved, _, follows = done.stdout.partition("\n# what follows from it\n")
     return Told(resolved, *(number_after(follows, label) for label in ("time step", "steps", "time on one thread, about", "N")))
 

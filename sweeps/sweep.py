@@ -56,10 +56,13 @@ def count_of(name, text, default):
 
 
 class BadScene(Refusal):
-    """What `jostle check` refuses; its words tell all."""
+    """What `jostle check` refuses; its words tell all, a line for each mistake of a scene."""
 
     def __init__(self, words):
         Exception.__init__(self, words)
+
+    def lines(self):
+        return str(self).splitlines()
 
 
 class Sweep:

@@ -18,7 +18,9 @@ constexpr const char* input_error_text =
     "Input that jostle refuses; its text is that of the command.\n\n"
     "Attributes: key, value, problem, allowed, suggestion (texts, \"\" where there is nothing to say), file, line, "
     "column\n"
-    "(where the value stands, \"\" and 0 if it comes from no file).";
+    "(where the value stands, \"\" and 0 if it comes from no file), others (list of InputError: further mistakes of "
+    "the\n"
+    "same scene, whose texts follow below).";
 constexpr const char* disk_error_text = "A file could not be read or written.";
 
 /// What users write, and names of files, need not be UTF-8.
@@ -27,7 +29,7 @@ py::str text(std::string_view bytes) {
         PyUnicode_DecodeUTF8(bytes.data(), static_cast<py::ssize_t>(bytes.size()), "replace"));
 }
 
-void raise(const InputError& error) {
+py::object exception_of(const InputError& error) {
     const InputError::Parts& parts = error.parts();
     py::object exception = py::handle(input_error)(text(error.what()));
     exception.attr("key") = text(parts.key);
@@ -38,7 +40,14 @@ void raise(const InputError& error) {
     exception.attr("file") = text(parts.place.file);
     exception.attr("line") = parts.place.file.empty() ? 0 : parts.place.line;
     exception.attr("column") = parts.place.file.empty() ? 0 : parts.place.column;
-    PyErr_SetObject(input_error, exception.ptr());
+    py::list others;
+    for (const InputError::Parts& other : parts.others) others.append(exception_of(InputError(other)));
+    exception.attr("others") = others;
+    return exception;
+}
+
+void raise(const InputError& error) {
+    PyErr_SetObject(input_error, exception_of(error).ptr());
 }
 
 void translate(std::exception_ptr pointer) {

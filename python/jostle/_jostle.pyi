@@ -21,6 +21,7 @@ class InputError(ValueError):
     file: str
     line: int
     column: int
+    others: list[InputError]
 
 class JournalReader:
     def next(self) -> Any: ...

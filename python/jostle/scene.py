@@ -93,6 +93,8 @@ class Scene:
         ... [rods]
         ... count = 400
         ... lenght = 5.0
+        ... [time]
+        ... production = 50.0
         ... ''')
         Traceback (most recent call last):
         jostle.InputError: <text>:6:1: rods.lenght = 5.0: is an unknown key (allowed: "count", "length", "diameter", "length_deviation", \

@@ -35,9 +35,9 @@ def test_units_are_as_people_write_them(unit, words):
 def test_times_of_cells_are_those_of_growth():
     """rate 2 ℓ/t, D = 0.5 ℓ: a cell lengthens by D in 0.25 t, so time 1 t is 4 D/rate; stress is µ over that time."""
     scene = {"growth": {"rate": 2.0}, "rods": {"diameter": 0.5}}
-    assert units.readable("energy_unit-1 D3 mu", scene) == (4.0, "D/growth rate")
-    assert units.readable("energy_unit D-3", scene) == (0.25, "µ growth rate/D")
-    assert units.readable("energy_unit-1 D3 mu", {"growth": {"rate": 0.0}}) == (1.0, "µ D³/E")
+    assert units.readable("time_unit", scene) == (4.0, "D/growth rate")
+    assert units.readable("mu time_unit-1", scene) == (0.25, "µ growth rate/D")
+    assert units.readable("mu time_unit-1", {"growth": {"rate": 0.0}}) == (1.0, "µ/τ")
 
 
 def test_the_doubling_time_of_exponential_growth():

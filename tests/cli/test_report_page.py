@@ -272,7 +272,7 @@ def test_a_colony_has_a_page_of_its_own(browser, tmp_path):
     report(tmp_path)
     folder = tmp_path / "run"
     text = (folder / "report/report.html").read_text()
-    assert "ompressibility" not in text.split("<details")[0] and "energy_unit" not in text.split("<pre>")[0]
+    assert "ompressibility" not in text.split("<details")[0] and "time_unit" not in text.split("<pre>")[0]
     assert not (folder / "report/Z.png").exists()
     browser.open(folder / "report/report.html")
     page = bare(browser)

@@ -164,10 +164,26 @@ def test_swimmers_that_tumble_go_on(tmp_path):
     assert all(value > 0 for value in column(reference / "series.csv", "pressure_active")[9:])
 
 
-@pytest.mark.parametrize("text", ["3", "1:60", "1:00:60", "-1:00", "1:00 ", "one hour", ""])
+@pytest.mark.parametrize("text", ["3", "1:60", "1:00:60", "-1:00", "1:00 ", "one hour", "", "24", "1h2d", "5h 6h", "-3h", "1-", "1-24:00:00", "1-2-3", "h", "1e3s", "infh",
+                                  "1:2:3:4", "99999999h", "3 weeks", "1--2"])
 def test_walltime_that_is_none(tmp_path, text):
     write_scene(tmp_path, RODS)
     result = run(tmp_path, "--walltime", text)
     assert result.returncode == BAD_INPUT
     assert "--walltime" in result.stderr
     assert not (tmp_path / "run").exists()
+
+
+@pytest.mark.parametrize("text, seconds", [("0:00:01", 1), ("1s", 1), ("1 s", 1), ("0h 0min 1s", 1), ("0.02min", 1.2), ("0-00:00:01", 1)])
+def test_walltime_in_other_words(tmp_path, text, seconds):
+    """Short ones stop the run; it would last for hours."""
+    write_scene(tmp_path, changed(ENDLESS, rods={"start": "aligned"}))  # which takes no time
+    began = time.monotonic()
+    assert run(tmp_path, "--walltime", text).returncode == STOPPED
+    assert time.monotonic() - began < seconds + 5.0
+
+
+@pytest.mark.parametrize("text", ["24h", "1-00:00:00", "1-12", "90min", "90m", "1h30min", "1h 30m", "2 days", "1d12h", "1.5h", "23:50", "100:00:00"])
+def test_walltime_is_no_shorter_than_it_says(tmp_path, text):
+    write_scene(tmp_path, with_steps(RODS, 20))
+    assert run(tmp_path, "--walltime", text).returncode == DONE

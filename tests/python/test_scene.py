@@ -177,3 +177,11 @@ def test_copies_are_apart():
     simulation.scene.seed = 5
     assert simulation.scene == scene
     assert "count = 9" in repr(scene) and "count=9" in repr(scene.rods)
+
+
+def test_all_mistakes_are_told_at_once():
+    with pytest.raises(jostle.InputError) as refused:
+        jostle.Scene.from_toml("[box]\nvolume_fraction = 1.5\n[rods]\ncount = 9\nlength = -1.0\n[time]\ndt = 0.1\nproduction = 1.0\n")
+    mistakes = [refused.value, *refused.value.others]
+    assert [one.key for one in mistakes] == ["box.volume_fraction", "rods.length", "time.dt"] and [one.line for one in mistakes] == [2, 5, 7]
+    assert str(refused.value).splitlines()[1] == str(mistakes[1]) and mistakes[2].others == []

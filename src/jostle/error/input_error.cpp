@@ -27,6 +27,20 @@ std::string lines(std::string_view problems) {
 
 }  // namespace
 
+InputError InputError::with_place(const Place& place) const {
+    Parts parts = parts_;
+    parts.place = place;
+    for (Parts& other : parts.others)
+        if (other.place.file.empty()) other.place = place;
+    return InputError(std::move(parts));
+}
+
+InputError InputError::with_others(const std::vector<InputError>& others) const {
+    Parts parts = parts_;
+    for (const InputError& other : others) parts.others.push_back(other.parts());
+    return InputError(std::move(parts));
+}
+
 std::string InputError::message(const Parts& parts) {
     std::string text;
     if (!parts.place.file.empty()) {
@@ -46,6 +60,7 @@ std::string InputError::message(const Parts& parts) {
     text += lines(parts.problem);
     if (!parts.allowed.empty()) text += " (allowed: " + shown(parts.allowed) + ")";
     if (!parts.suggestion.empty()) text += ". " + shown(parts.suggestion);
+    for (const Parts& other : parts.others) text += "\n" + message(other);
     return text;
 }
 

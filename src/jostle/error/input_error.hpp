@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace jostle {
 
@@ -16,7 +17,8 @@ struct Place {
 ///
 /// `what()` is the whole message on one line:
 ///   FILE:LINE:COLUMN: KEY = VALUE: PROBLEM (allowed: RANGE). SUGGESTION
-/// with the parts that are empty left out; for a table with several bad rows, such a line for each (RowProblems).
+/// with the parts that are empty left out; for a table with several bad rows (RowProblems), and of a scene with several
+/// mistakes, such a line for each.
 /// Checks deep in the program know key and value but not the place; the scene reader catches the error, and rethrows
 /// `with_place`.
 class InputError : public std::runtime_error {
@@ -28,18 +30,18 @@ public:
         std::string allowed{};     ///< the allowed range or the allowed words
         std::string suggestion{};  ///< what to do about it, a sentence without a full stop
         Place place{};
+        std::vector<Parts> others{};  ///< of the same input, told below it; they have no others
     };
 
     explicit InputError(Parts parts) : std::runtime_error(message(parts)), parts_(std::move(parts)) {}
 
     const Parts& parts() const { return parts_; }
 
-    /// The same error with the place where its key stands.
-    InputError with_place(Place place) const {
-        Parts parts = parts_;
-        parts.place = std::move(place);
-        return InputError(std::move(parts));
-    }
+    /// The same error with the place where its key stands; the others, too, where they have none.
+    InputError with_place(const Place& place) const;
+
+    /// The same error, and others of the same input.
+    InputError with_others(const std::vector<InputError>& others) const;
 
 private:
     static std::string message(const Parts& parts);

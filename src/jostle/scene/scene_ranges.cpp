@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "jostle/scene/mistakes.hpp"
 #include "jostle/scene/refusal.hpp"
 #include "jostle/scene/scene_keys.hpp"
 #include "jostle/scene/unused_keys.hpp"
@@ -72,11 +73,13 @@ struct RangeCheck {
 
 void require_ranges(const Scene& scene) {
     const std::vector<UnusedKey> unused = unused_keys(scene);
+    Mistakes mistakes;
     for_each_key(scene, [&](std::string_view table, std::string_view name, const auto& member, const auto& spec) {
         const std::string key = full_key(table, name);
         if (std::any_of(unused.begin(), unused.end(), [&](const UnusedKey& entry) { return entry.key == key; })) return;
-        RangeCheck{key}(member, spec);
+        mistakes.look([&] { RangeCheck{key}(member, spec); });
     });
+    mistakes.refuse_any();
 }
 
 }  // namespace jostle

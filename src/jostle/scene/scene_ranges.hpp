@@ -4,7 +4,7 @@
 
 namespace jostle {
 
-/// Throws InputError for the first key, of those that mean something in this scene, whose value is outside the range of
+/// Throws InputError for all keys, of those that mean something in this scene, whose value is outside the range of
 /// scene_keys.hpp.
 void require_ranges(const Scene& scene);
 

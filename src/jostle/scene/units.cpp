@@ -67,7 +67,7 @@ public:
         for (int sign = 1; !at_end(); sign = read_operator()) read_unit(sign);
         if (!(dimension_ == expected_)) {
             const std::string unit = micro_unit_of(dimension_);
-            refuse("is a quantity in " + (unit.empty() ? "pure numbers" : unit), "");
+            refuse("is a quantity in " + (unit.empty() ? "pure numbers" : readable_unit(unit)), "");
         }
         // a quotient of two exact numbers is rounded once; a product with 10^-3 would be rounded twice
         const double scale = std::pow(10.0, std::abs(power_of_ten_));
@@ -81,7 +81,7 @@ private:
         throw InputError({"",
                           "\"" + text_ + "\"",
                           std::move(problem),
-                          "a number, or a text with a unit of " + micro_unit_of(expected_),
+                          "a number, or a text with a unit of " + readable_unit(micro_unit_of(expected_)),
                           std::move(suggestion),
                           {}});
     }
@@ -174,11 +174,12 @@ std::string micro_unit_of(Dimension d) {
 
 std::string unit_of(const Scene& scene, Dimension d) {
     if (scene.units.system == UnitSystem::micro) return micro_unit_of(d);
-    const char* energy = scene.fluid.kT == 1.0 ? "kT" : "energy_unit";
     const char* length = scene.rods.diameter == 1.0 ? "D" : "length_unit";
     const char* viscosity = scene.fluid.viscosity == 1.0 ? "mu" : "viscosity_unit";
+    if (scene.fluid.kT != 1.0)  // force = viscosity length^2/time
+        return product({{length, d.length + 2 * d.force}, {viscosity, d.force}, {"time_unit", d.time - d.force}});
     // force = energy/length, time = viscosity length^3/energy
-    return product({{energy, d.force - d.time}, {length, d.length - d.force + 3 * d.time}, {viscosity, d.time}});
+    return product({{"kT", d.force - d.time}, {length, d.length - d.force + 3 * d.time}, {viscosity, d.time}});
 }
 
 std::string example_quantity(Dimension d) {

@@ -20,9 +20,26 @@ double parse_quantity(std::string_view text, Dimension expected);
 /// numbers.
 ///
 /// "micro": products of pN, um and s. "reduced": products of kT, D and mu (the viscosity), the units of energy, length
-/// and viscosity, so that time has the unit "kT-1 D3 mu". Where one of the three is not 1 in the scene it is not the
-/// unit, which then is called "energy_unit", "length_unit" or "viscosity_unit".
+/// and viscosity, so that time has the unit "kT-1 D3 mu". Where D or mu is not 1 in the scene it is not the unit, which
+/// then is called "length_unit" or "viscosity_unit"; where kT is not 1, the unit of time is called "time_unit", and
+/// takes the place of that of energy.
 std::string unit_of(const Scene& scene, Dimension dimension);
+
+/// A unit as people write it: a number in the unit of a file, times the factor, is in this one.
+struct ReadableUnit {
+    double factor = 1.0;
+    std::string name;  ///< "" for pure numbers
+};
+
+/// What `unit_of` wrote, as "mu D3/kT" for "kT-1 D3 mu". Of cells that grow without much noise, times are in what they
+/// need to lengthen by D, "D/growth rate", in the place of time_unit.
+ReadableUnit readable_unit(const Scene& scene, std::string_view unit);
+
+/// The same of a dimension in the scene's own unit, whatever grows.
+std::string readable_unit_of(const Scene& scene, Dimension dimension);
+
+/// "um/s" for "um s-1".
+std::string readable_unit(std::string_view unit);
 
 /// The same in the micro system, whatever the scene.
 std::string micro_unit_of(Dimension dimension);

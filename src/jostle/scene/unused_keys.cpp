@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "jostle/scene/key_values.hpp"
+#include "jostle/scene/mistakes.hpp"
 #include "jostle/scene/refusal.hpp"
 #include "jostle/scene/scene_keys.hpp"
 
@@ -60,10 +61,12 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
 
 void refuse_unused_keys(const Scene& scene) {
     const auto values = key_values(scene), defaults = key_values(Scene{});
+    Mistakes mistakes;
     for (const UnusedKey& unused : unused_keys(scene))
         for (std::size_t k = 0; k < values.size(); ++k)
             if (values[k].key == unused.key && values[k].text != defaults[k].text)
-                refuse(unused.key, values[k].text, unused.reason, "", unused.suggestion);
+                mistakes.add(InputError({unused.key, values[k].text, unused.reason, "", unused.suggestion}));
+    mistakes.refuse_any();
 }
 
 }  // namespace jostle

@@ -7,6 +7,7 @@
 
 #include "jostle/motion/tumbles.hpp"
 #include "jostle/rods/rods.hpp"
+#include "jostle/scene/mistakes.hpp"
 #include "jostle/scene/refusal.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_box.hpp"
@@ -77,6 +78,13 @@ void check_packing(const Scene& scene) {
                fmt::format("is too dense for a random start{} with rods of L/D = {}", volume, rounded(aspect_ratio)),
                fmt::format("a volume fraction of at most {}", rounded(limit)),
                "Use start = \"aligned\" or \"lattice\", or a lower volume fraction");
+}
+
+/// Whether the rods of the scene have room in its box.
+void check_room(const Scene& scene) {
+    check_deviations(scene);
+    check_packing(scene);
+    validate_box(scene, rods_volume(scene), largest_diameter(scene));
 }
 
 void check_motion(const Scene& scene) {
@@ -168,22 +176,22 @@ void check_time(const Scene& scene) {
 }  // namespace
 
 void validate(const Scene& scene) {
-    refuse_unused_keys(scene);
-    require_ranges(scene);
-    check_start(scene);
-    check_box_given_once(scene);
-    if (scene.rods.start != StartKind::file) {
-        check_deviations(scene);
-        check_packing(scene);
-        validate_box(scene, rods_volume(scene), largest_diameter(scene));
-        validate_contact_range(scene, largest_length(scene) + largest_diameter(scene));
-    }
-    check_motion(scene);
-    check_mobility(scene);
-    validate_growth(scene, largest_diameter(scene));
-    check_springs(scene);
-    check_solver(scene);
-    check_time(scene);
+    Mistakes alone;  // of the keys by themselves: only once these are sound it can be said how they go together
+    alone.look([&] { refuse_unused_keys(scene); });
+    alone.look([&] { require_ranges(scene); });
+    alone.refuse_any();
+    Mistakes together;
+    together.look([&] { check_start(scene); });
+    together.look([&] {
+        check_box_given_once(scene);
+        if (scene.rods.start != StartKind::file) check_room(scene);
+    });
+    for (const auto check : {check_motion, check_mobility, check_springs, check_solver, check_time})
+        together.look([&] { check(scene); });
+    together.look([&] { validate_growth(scene, largest_diameter(scene)); });
+    if (scene.rods.start != StartKind::file)
+        together.look([&] { validate_contact_range(scene, largest_length(scene) + largest_diameter(scene)); });
+    together.refuse_any();
 }
 
 void validate_box(const Scene& scene, double rods_volume, double largest_diameter) {

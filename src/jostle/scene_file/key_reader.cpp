@@ -111,7 +111,8 @@ const toml::array& KeyReader::three(const toml::node& node, const std::string& e
 std::string KeyReader::allowed(const Quantity& quantity) const {
     std::string text = "a number";
     const bool micro = units_ == UnitSystem::micro;
-    const std::string unit = micro ? micro_unit_of(quantity.dimension) : unit_of(Scene{}, quantity.dimension);
+    const std::string unit =
+        readable_unit(micro ? micro_unit_of(quantity.dimension) : unit_of(Scene{}, quantity.dimension));
     if (!unit.empty()) text += " in " + unit;
     if (micro && !unit.empty()) text += ", or with its unit as \"" + example_quantity(quantity.dimension) + "\"";
     return quantity.automatic ? text + ", or \"auto\"" : text;

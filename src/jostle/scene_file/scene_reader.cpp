@@ -9,7 +9,9 @@
 
 #include "jostle/disk/durable_file.hpp"
 #include "jostle/error/nearest_word.hpp"
+#include "jostle/scene/mistakes.hpp"
 #include "jostle/scene/scene_keys.hpp"
+#include "jostle/scene/scene_ranges.hpp"
 #include "jostle/scene/unused_keys.hpp"
 #include "jostle/scene/validate_scene.hpp"
 #include "jostle/scene_file/key_reader.hpp"
@@ -20,10 +22,11 @@ namespace jostle {
 
 namespace {
 
-void read_keys(const TomlDocument& document, Scene& scene) {
+void read_keys(const TomlDocument& document, Scene& scene, Mistakes& mistakes) {
     for_each_key(scene, [&](std::string_view table, std::string_view name, auto& member, const auto& spec) {
         if (const toml::node* node = document.find(table, name))
-            KeyReader(document, scene.units.system, full_key(table, name)).read(*node, member, spec);
+            mistakes.look(
+                [&] { KeyReader(document, scene.units.system, full_key(table, name)).read(*node, member, spec); });
     });
     const bool brownian_step = scene.motion.brownian && scene.fluid.kT > 0.0 && scene.growth.rate == 0.0;
     if (!scene.time.step && !scene.time.rms_step && brownian_step) scene.time.rms_step = default_rms_step;
@@ -34,7 +37,18 @@ struct RequiredKey {
     std::string table, name, example;
 };
 
-void refuse_missing(const TomlDocument& document, const Scene& scene) {
+/// Whether a mistake is about this key, as "lenght" is about "length" and rods = 5 about all of its table.
+bool is_explained(const Mistakes& mistakes, const std::string& table, const std::string& name) {
+    return std::any_of(mistakes.found().begin(), mistakes.found().end(), [&](const InputError& error) {
+        const InputError::Parts& parts = error.parts();
+        return parts.key == table || parts.suggestion.find("\"" + name + "\"") != std::string::npos ||
+               parts.suggestion.find("\"" + table + "\"") != std::string::npos;
+    });
+}
+
+/// Keys that the scene needs, lacks, and that no mistake so far is about.
+Mistakes find_missing(const TomlDocument& document, const Scene& scene, const Mistakes& mistakes) {
+    Mistakes missing;
     std::vector<RequiredKey> required;
     if (scene.rods.start != StartKind::file) required.push_back({"rods", "count", "2000"});
     required.push_back({"rods", "length", "5.0"});
@@ -48,29 +62,48 @@ void refuse_missing(const TomlDocument& document, const Scene& scene) {
         required.push_back(
             {"growth", "division_length", fmt::format("{:.6g}", 2.0 * scene.rods.length + scene.rods.diameter)});
     for (const auto& [table, name, example] : required)
-        if (!document.find(table, name))
-            throw InputError({table + "." + name, "", "is missing", "",
-                              fmt::format("Add {} = {} under [{}]", name, example, table),
-                              document.place_of(table + "." + name)});
+        if (!document.find(table, name) && !is_explained(mistakes, table, name))
+            missing.add(InputError({table + "." + name, "", "is missing", "",
+                                    fmt::format("Add {} = {} under [{}]", name, example, table),
+                                    document.place_of(table + "." + name)}));
+    return missing;
 }
 
-void refuse_unused(const TomlDocument& document, const Scene& scene) {
+void find_unused(const TomlDocument& document, const Scene& scene, Mistakes& mistakes) {
     for (const auto& [key, reason, suggestion] : unused_keys(scene)) {
         const std::size_t dot = key.find('.');
         const toml::node* node = document.find(key.substr(0, dot), key.substr(dot + 1));
         if (node)
-            throw InputError(
-                {key, document.written(node->source()), reason, "", suggestion, document.place(node->source())});
+            mistakes.add(InputError(
+                {key, document.written(node->source()), reason, "", suggestion, document.place(node->source())}));
     }
 }
 
-/// The error with the place of its key and its value as the user wrote it.
-InputError with_place(const TomlDocument& document, const InputError& error) {
-    InputError::Parts parts = error.parts();
+void place_key(const TomlDocument& document, InputError::Parts& parts) {
     const auto [table, name] = parts_of_key(parts.key);
     if (const toml::node* node = document.find(table, name)) parts.value = document.written(node->source());
     parts.place = document.place_of(parts.key);
+}
+
+/// The error with the place of its key and its value as the user wrote it; the others, too.
+InputError with_place(const TomlDocument& document, const InputError& error) {
+    InputError::Parts parts = error.parts();
+    place_key(document, parts);
+    for (InputError::Parts& other : parts.others) place_key(document, other);
     return InputError(parts);
+}
+
+/// Mistakes of keys that are there, each by itself.
+void find_out_of_range(const TomlDocument& document, const Scene& scene, Mistakes& mistakes) {
+    Mistakes found;
+    found.look([&] { require_ranges(scene); });
+    for (const InputError& error : found.found()) {
+        const std::string& key = error.parts().key;
+        const auto [table, name] = parts_of_key(key);
+        const bool known = std::any_of(mistakes.found().begin(), mistakes.found().end(),
+                                       [&](const InputError& other) { return other.parts().key == key; });
+        if (!known && document.find(table, name)) mistakes.add(with_place(document, error));
+    }
 }
 
 [[noreturn]] void refuse_file(const std::filesystem::path& path, std::string problem, std::string suggestion) {
@@ -135,15 +168,24 @@ Scene parse_scene(std::string_view text, std::string file_name) {
                           "",
                           "Begin with the scene in the README",
                           {file_name, 1, 1}});
-    refuse_unknown_keys(document);
+    Mistakes mistakes;
+    mistakes.look([&] { refuse_unknown_keys(document); });
     Scene scene;
-    read_keys(document, scene);
-    refuse_missing(document, scene);
-    refuse_unused(document, scene);
+    read_keys(document, scene, mistakes);
+    const bool read = mistakes.empty();
+    const Mistakes missing = find_missing(document, scene, mistakes);
+    if (read) find_unused(document, scene, mistakes);
+    find_out_of_range(document, scene, mistakes);
+    mistakes.sort_by_place();
+    for (const InputError& error : missing.found()) mistakes.add(error);
+    mistakes.refuse_any();
     try {
         validate(scene);
     } catch (const InputError& error) {
-        throw with_place(document, error);
+        Mistakes placed;
+        placed.add(with_place(document, error));
+        placed.sort_by_place();
+        placed.refuse_any();
     }
     // A growing population has no equilibrium to wait for.
     if (scene.growth.rate > 0.0 && !scene.time.equilibration) scene.time.equilibration = 0.0;

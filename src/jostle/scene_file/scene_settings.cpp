@@ -56,6 +56,18 @@ Setting parse_setting(const std::string& text) {
     return setting;
 }
 
+/// `in_settings` of one mistake.
+InputError alone_in_settings(const std::filesystem::path& scene_path, const std::vector<Setting>& settings,
+                             const InputError& error) {
+    const auto found = std::find_if(settings.begin(), settings.end(),
+                                    [&](const Setting& setting) { return setting.key == error.parts().key; });
+    if (found == settings.end()) return is_scene_key(error.parts().key) ? in_scene_file(scene_path, error) : error;
+    InputError::Parts parts = error.parts();
+    parts.value = found->value;
+    parts.place = on_command_line;
+    return InputError(parts);
+}
+
 }  // namespace
 
 std::vector<Setting> parse_settings(const std::vector<std::string>& texts) {
@@ -73,7 +85,8 @@ std::vector<Setting> parse_settings(const std::vector<std::string>& texts) {
 
 std::string with_settings(std::string_view scene, const std::string& file_name, const std::vector<Setting>& settings) {
     std::string text(scene);
-    if (!settings.empty()) refuse_unknown_keys(TomlDocument(text, file_name));
+    if (!settings.empty() && has_unknown_keys(TomlDocument(text, file_name)))
+        parse_scene(text, file_name);  // tells all
     for (const auto& [key, other] : alternatives) {
         const auto [table, name] = parts_of_key(other);
         if (sets(settings, key) && !sets(settings, other))
@@ -88,14 +101,13 @@ std::string with_settings(std::string_view scene, const std::string& file_name, 
 
 InputError in_settings(const std::filesystem::path& scene_path, const std::vector<Setting>& settings,
                        const InputError& error) {
-    const auto found = std::find_if(settings.begin(), settings.end(),
-                                    [&](const Setting& setting) { return setting.key == error.parts().key; });
-    if (found == settings.end())
-        return settings.empty() || !is_scene_key(error.parts().key) ? error : in_scene_file(scene_path, error);
+    if (settings.empty()) return error;
     InputError::Parts parts = error.parts();
-    parts.value = found->value;
-    parts.place = on_command_line;
-    return InputError(parts);
+    std::vector<InputError> others;
+    for (const InputError::Parts& other : parts.others)
+        others.push_back(alone_in_settings(scene_path, settings, InputError(other)));
+    parts.others.clear();
+    return alone_in_settings(scene_path, settings, InputError(std::move(parts))).with_others(others);
 }
 
 }  // namespace jostle

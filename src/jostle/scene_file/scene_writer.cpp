@@ -55,7 +55,7 @@ std::string written(const std::optional<Number>& value) {
 }
 
 std::string unit_comment(const Scene& scene, const Quantity& quantity) {
-    const std::string unit = unit_of(scene, quantity.dimension);
+    const std::string unit = readable_unit_of(scene, quantity.dimension);
     return unit.empty() ? "" : "  # " + unit;
 }
 template <class Other>

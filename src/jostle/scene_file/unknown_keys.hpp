@@ -16,6 +16,8 @@ bool is_scene_key(std::string_view full_key);
 /// Errors: InputError.
 void refuse_unknown_keys(const TomlDocument& document);
 
+bool has_unknown_keys(const TomlDocument& document);
+
 /// The same of one full key, which the command line sets to `value`.
 void refuse_unknown_key(std::string_view full_key, const std::string& value, const Place& place);
 

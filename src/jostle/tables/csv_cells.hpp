@@ -40,6 +40,11 @@ inline void split_cells(std::string_view line, std::vector<std::string_view>& ce
     }
 }
 
+/// A header as NumPy's savetxt writes it, "# x,y,z", without its sign.
+inline std::string_view without_sign(std::string_view header) {
+    return header.starts_with('#') ? trimmed(header.substr(1)) : header;
+}
+
 /// The finite number that a cell holds, and nothing else.
 inline std::optional<double> number_of_cell(std::string_view cell) {
     const std::string_view digits = cell.size() > 1 && cell.front() == '+' ? cell.substr(1) : cell;

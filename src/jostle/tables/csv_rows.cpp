@@ -21,7 +21,7 @@ using Places = std::vector<std::optional<std::size_t>>;
 Places places_of(const std::string& path, const CsvColumns& columns, std::string_view header) {
     Places places(columns.names.size());
     std::vector<std::string_view> names;
-    split_cells(header, names);
+    split_cells(without_sign(header), names);
     for (std::size_t cell = 0; cell < names.size(); ++cell) {
         const auto known = std::find(columns.names.begin(), columns.names.end(), names[cell]);
         if (known == columns.names.end())

@@ -16,7 +16,8 @@ struct CsvColumns {
     std::string_view header;  ///< what to do about a wrong header
 };
 
-/// Reads a CSV file: a header line that names columns in any order, then one row a line; empty lines are passed over.
+/// Reads a CSV file: a header line that names columns in any order, perhaps after a "#", then one row a line; empty
+/// lines are passed over.
 ///
 /// Calls row(line, values) with `values` in the order of `columns.names`, without a value where the file has no such
 /// column. Errors: InputError with line and column for anything missing, unknown or not a finite number; DiskError.

@@ -24,6 +24,17 @@ void read_comment(std::string_view line, TableUnits& units) {
     if (key == "force_unit") units.force = value;
 }
 
+/// Whether a comment is a header as NumPy's savetxt writes it: it names two known columns at least.
+bool is_header(std::string_view line, const KnownColumns& known) {
+    std::vector<std::string_view> cells;
+    split_cells(without_sign(line), cells);
+    const auto has = [](const auto& names, std::string_view cell) {
+        return std::find(names.begin(), names.end(), cell) != names.end();
+    };
+    return std::count_if(cells.begin(), cells.end(),
+                         [&](std::string_view cell) { return has(known.numbers, cell) || has(known.words, cell); }) > 1;
+}
+
 /// Where the cells of a row go: to a column of numbers, of words, or nowhere.
 struct Target {
     std::string name;
@@ -82,7 +93,9 @@ Table read_csv_table(const std::string& path, const KnownColumns& known) {
     for (int number = 1; !rest.empty(); ++number) {
         const std::string_view line = next_line(rest);
         if (line.empty()) continue;
-        if (line.front() == '#') {
+        if (line.front() == '#' && targets.empty() && is_header(line, known)) {
+            targets = read_header(table, without_sign(line), number, known);
+        } else if (line.front() == '#') {
             read_comment(line, table.units);
         } else if (targets.empty()) {
             targets = read_header(table, line, number, known);

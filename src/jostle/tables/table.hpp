@@ -48,10 +48,10 @@ struct Table {
 /// Reads CSV or HDF5, whichever the file is.
 ///
 /// CSV: lines that begin with # are passed over, but for "# length_unit: um" and "# force_unit: pN"; then a header line
-/// with the columns' names, then one row a line; cells are parted by commas, and may stand in quotes. HDF5: datasets of
-/// one dimension in the root group; the units are attributes of the root group. Cells that are no finite numbers and
-/// numbers beyond 1e30 in size and rows of another length than the header become `problems`. HDF5 is read in a child
-/// process (bytes_from_child.hpp). Errors: InputError for what is no such table; DiskError.
+/// with the columns' names, perhaps after a "#", then one row a line; cells are parted by commas, and may stand in
+/// quotes. HDF5: datasets of one dimension in the root group; the units are attributes of the root group. Cells that
+/// are no finite numbers and numbers beyond 1e30 in size and rows of another length than the header become `problems`.
+/// HDF5 is read in a child process (bytes_from_child.hpp). Errors: InputError for what is no such table; DiskError.
 Table read_table(const std::string& path, const KnownColumns& known);
 
 /// NAME_x, NAME_y, NAME_z.

@@ -70,7 +70,7 @@ TEST_CASE("what is no quantity is refused") {
     CHECK(refusal("um", dimension::length) == "does not begin with a number");
     CHECK(refusal("3 s", dimension::length) == "is a quantity in s");
     CHECK(refusal("3 um/um", dimension::length) == "is a quantity in pure numbers");
-    CHECK(refusal("3 Pa", dimension::viscosity) == "is a quantity in pN um-2");
+    CHECK(refusal("3 Pa", dimension::viscosity) == "is a quantity in pN/um2");
     CHECK(refusal("3 parsec", dimension::length) == "has the unknown unit \"parsec\"");
     CHECK(refusal("3 um/", dimension::length) == "ends with \"/\"");
     CHECK(refusal("3 um *", dimension::length) == "ends with \"*\"");
@@ -104,11 +104,42 @@ TEST_CASE("names of units for outputs") {
     CHECK(unit_of(scene, dimension::speed) == "kT D-2 mu-1");
     CHECK(unit_of(scene, dimension::none) == "");
     scene.fluid.kT = 0.01;
-    CHECK(unit_of(scene, dimension::stress) == "energy_unit D-3");
+    CHECK(unit_of(scene, dimension::stress) == "mu time_unit-1");
+    CHECK(unit_of(scene, dimension::time) == "time_unit");
+    CHECK(unit_of(scene, dimension::energy) == "D3 mu time_unit-1");
+    CHECK(unit_of(scene, dimension::force) == "D2 mu time_unit-1");
+    CHECK(unit_of(scene, dimension::viscosity) == "mu");
     scene.rods.diameter = 2.0;
     CHECK(unit_of(scene, dimension::number_density) == "length_unit-3");
     scene.fluid.viscosity = 3.0;
-    CHECK(unit_of(scene, dimension::time) == "energy_unit-1 length_unit3 viscosity_unit");
+    CHECK(unit_of(scene, dimension::time) == "time_unit");
+    CHECK(unit_of(scene, dimension::stress) == "viscosity_unit time_unit-1");
+}
+
+TEST_CASE("people read quotients") {
+    CHECK(readable_unit("kT-1 D3 mu") == "mu D3/kT");
+    CHECK(readable_unit("kT D-3") == "kT/D3");
+    CHECK(readable_unit("kT D-2 mu-1") == "kT/(mu D2)");
+    CHECK(readable_unit("um s-1") == "um/s");
+    CHECK(readable_unit("s-1") == "1/s");
+    CHECK(readable_unit("D") == "D");
+    CHECK(readable_unit("") == "");
+}
+
+TEST_CASE("times of cells are those in which they lengthen by D") {
+    Scene scene;
+    scene.fluid.kT = 0.0;
+    const auto [no_growth, name] = readable_unit(scene, "mu time_unit-1");
+    CHECK(no_growth == 1.0);
+    CHECK(name == "mu/time_unit");
+    scene.growth.rate = 4.0;  // D in a quarter of the unit of time
+    const ReadableUnit time = readable_unit(scene, "time_unit"), stress = readable_unit(scene, "mu time_unit-1");
+    CHECK(time.factor == 4.0);
+    CHECK(time.name == "D/growth rate");
+    CHECK(stress.factor == 0.25);
+    CHECK(stress.name == "mu growth rate/D");
+    CHECK(readable_unit(scene, "D2 time_unit-1").name == "D growth rate");
+    CHECK(readable_unit(scene, "kT-1 D3 mu").name == "mu D3/kT");
 }
 
 TEST_CASE("every example and every micro unit reads back in its own dimension") {

@@ -47,7 +47,9 @@ InputError::Parts refusal(const std::string& text) {
     try {
         parse_scene(text, "bad.toml");
     } catch (const InputError& error) {
-        CHECK(std::string(error.what()).find('\n') == std::string::npos);
+        const std::string message = error.what();  // a line for each mistake
+        CHECK(static_cast<std::size_t>(std::count(message.begin(), message.end(), '\n')) ==
+              error.parts().others.size());
         return error.parts();
     }
     FAIL("accepted: " << text);
@@ -202,7 +204,7 @@ TEST_CASE("words") {
          "neither a number", "Did you mean \"auto\"?"},
         {12, "[contact]\nrange = \"automatic\"\n[fluid]", 13, 9, "contact.range", "\"automatic\"", "neither a number",
          "Did you mean \"auto\"?"},
-        {15, "step = \"auto\"", 15, 8, "time.step", "\"auto\"", "a text, the wrong type", "a number in kT-1 D3 mu"},
+        {15, "step = \"auto\"", 15, 8, "time.step", "\"auto\"", "a text, the wrong type", "a number in mu D3/kT"},
     };
     for (const Case& c : cases) check(c);
 }
@@ -384,7 +386,7 @@ TEST_CASE("random damage never crashes") {
             parse_scene(text, "damaged.toml");
         } catch (const InputError& error) {
             const std::string message = error.what();
-            CHECK(std::none_of(message.begin(), message.end(), [](char c) { return c >= 0 && c < ' '; }));
+            CHECK(std::none_of(message.begin(), message.end(), [](char c) { return c >= 0 && c < ' ' && c != '\n'; }));
         }
     }
 }
@@ -432,4 +434,68 @@ TEST_CASE("the nearest word") {
     CHECK(nearest_word("", words) == "");
     CHECK(nearest_word(std::string(1000, 'l'), words) == "");
     CHECK(did_you_mean("viscosity", words) == "");
+}
+
+TEST_CASE("all mistakes of a scene are said at once, in the order of their lines; what is missing comes last") {
+    try {
+        parse_scene(
+            "random_seed = 3\n[box]\nvolume_fraction = 1.3\n[rods]\naspect_ratio = 5.0\ncount = \"many\"\n"
+            "[time]\ndt = 0.1\n",
+            "bad.toml");
+        FAIL("accepted");
+    } catch (const InputError& error) {
+        std::vector<InputError::Parts> parts = error.parts().others;
+        parts.insert(parts.begin(), error.parts());
+        const std::vector<std::pair<std::string, int>> expected = {{"random_seed", 1},       {"box.volume_fraction", 3},
+                                                                   {"rods.aspect_ratio", 5}, {"rods.count", 6},
+                                                                   {"time.dt", 8},           {"time.production", 7}};
+        REQUIRE(parts.size() == expected.size());
+        for (std::size_t k = 0; k < parts.size(); ++k) {
+            CHECK(parts[k].key == expected[k].first);
+            CHECK(parts[k].place.line == expected[k].second);
+        }
+    }
+}
+
+TEST_CASE("once all keys are sound, all that do not go together are said at once") {
+    const InputError::Parts parts = refusal(
+        "[box]\nvolume_fraction = 0.7\n[rods]\ncount = 10\nlength = 3.0\n[time]\nstep = 0.1\nrms_step = 0.1\n"
+        "production = 1.0\n");
+    CHECK(parts.key == "box.volume_fraction");
+    REQUIRE(parts.others.size() == 1);
+    CHECK(parts.others[0].key == "time.rms_step");
+    CHECK(parts.others[0].place.line == 8);
+}
+
+TEST_CASE("a misspelt key stands for itself: it is not said to be missing, too") {
+    for (const char* line : {"lenght = 5.0", "aspect_ratio = 5.0"}) {
+        const InputError::Parts parts = refusal("[box]\nvolume_fraction = 0.1\n[rods]\ncount = 9\n" +
+                                                std::string(line) + "\n[time]\nproduction = 1.0\n");
+        CHECK(parts.suggestion.find("\"length\"") != std::string::npos);
+        CHECK(parts.others.empty());
+    }
+}
+
+TEST_CASE("other names of keys lead to them") {
+    const std::vector<std::pair<std::string, std::string>> names = {
+        {"dt", "\"step\", under [time]"},
+        {"temperature", "\"kT\", under [fluid] (an energy)"},
+        {"Aspect_Ratio", "\"length\", under [rods]"},
+        {"random_seed", "\"seed\", at the top"},
+        {"n_rods", "\"count\", under [rods]"},
+        {"phi", "\"volume_fraction\", under [box]"}};
+    for (const auto& [name, advice] : names)
+        for (const char* heading : {"", "[output]\n"}) {
+            CAPTURE(name);
+            const InputError::Parts parts = refusal(heading + name + " = 1.0\n");
+            CHECK(parts.suggestion.find("It is called " + advice) == 0);
+        }
+}
+
+TEST_CASE("of very many mistakes the first twenty are told, and how many more there are") {
+    std::string text;
+    for (int k = 0; k < 30; ++k) text += "unheard_of_" + std::to_string(k) + " = 1\n";
+    const InputError::Parts parts = refusal(text);
+    REQUIRE(parts.others.size() == 20);
+    CHECK(parts.others.back().problem.find("more mistakes") != std::string::npos);
 }
