@@ -53,3 +53,10 @@ def test_headers_in_a_prefix_are_enough(tmp_path):
     build = (tmp_path / "build/build.ninja").read_text()
     assert not re.search(r"lib(fmt|xxhash|tomlplusplus)\.(so|a)", build)
     assert "-DFMT_HEADER_ONLY" in build and "-DXXH_INLINE_ALL" in build and f"-isystem {prefix}/include" in build
+
+
+def test_quickstart_installs_what_the_report_draws_rods_with():
+    """Modules that the report asks for, and what draws its plots; a still picture for print takes povray, which is left to others."""
+    needed = set(re.findall(r'"(python3-\w+)"', (ROOT / "presentation/report.py").read_text()))
+    installed = set(re.findall(r"^quickstart +(\S+)", (ROOT / "tools/packages.txt").read_text(), re.MULTILINE))
+    assert {"python3-numpy", "python3-h5py", "python3-matplotlib"} <= needed and needed | {"libjs-dygraphs"} <= installed

@@ -62,7 +62,7 @@ def test_a_name_is_looked_for_in_path(finished_copy):
     assert result.returncode == DONE and (chosen.parent / "asked").exists()
 
 
-@pytest.mark.parametrize("chosen, words", [("nowhere", "PATH has no such program"), ("/no/python3", "this Python does not start"),
+@pytest.mark.parametrize("chosen, words", [("nowhere", "PATH has no such program"), ("/usr/nowhere/python3", "this Python does not start"),
                                            ("./python3", "this Python does not start")])
 def test_a_choice_that_is_none(finished_copy, chosen, words):
     result = command(finished_copy, *WORDS, env=surroundings(Path("/nowhere"), JOSTLE_PYTHON=chosen))

@@ -1,8 +1,9 @@
-"""An installed jostle serves a project of its own; what that computes has the same bits as in Python."""
+"""An installed jostle serves a project of its own, by its public headers alone; what that computes has the same bits as in Python."""
 
 import os
 import re
 import subprocess
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -38,6 +39,46 @@ def build(tmp_path_factory):
     succeed("cmake", "--build", folder / "build")
     assert (folder / "prefix/bin/jostle").exists()
     return folder / "build"
+
+
+def public_headers():
+    return re.findall(r"^\| \[(jostle/\S+\.hpp)\]", (ROOT / "docs/guide/headers.md").read_text(), re.MULTILINE)
+
+
+def included(text):
+    return set(re.findall(r'^#include "(jostle/[^"]+)"', text, re.MULTILINE))
+
+
+def test_the_page_lists_the_public_headers(build):
+    """Installed are those of the page and, apart, what they include; the page names each once, and where it lies."""
+    listed, include = public_headers(), build.parent / "prefix/include"
+    private = {str(path.relative_to(include / "jostle/private")) for path in (include / "jostle/private").rglob("*.hpp")}
+    installed = {str(path.relative_to(include)) for path in include.rglob("*.hpp")} - {f"jostle/private/{name}" for name in private}
+    assert installed == set(listed) and len(listed) == len(installed)
+    sources = {name: (ROOT / "src" / name).read_text() for name in installed | private}
+    assert private == set().union(*map(included, sources.values())) - installed
+    page = (ROOT / "docs/guide/headers.md").read_text()
+    assert all(f"| [{name}](../../src/{name}) | " in page for name in listed)
+
+
+def test_each_public_header_alone(build, tmp_path):
+    """Each can be included first, where nothing but the install is to be seen."""
+    include = build.parent / "prefix/include"
+
+    def compiled(header):
+        program = tmp_path / (header.replace("/", "_") + ".cpp")
+        program.write_text(f'#include "{header}"\nint main() {{}}\n')
+        return subprocess.run(["c++", "-std=c++20", "-fopenmp", "-fsyntax-only", "-Wall", "-Werror", f"-I{include}", f"-I{include}/jostle/private", program],
+                              capture_output=True, text=True, timeout=100).stderr
+
+    with ThreadPoolExecutor(os.cpu_count()) as side_by_side:
+        assert [errors for errors in side_by_side.map(compiled, public_headers()) if errors] == []
+
+
+def test_programs_outside_include_public_headers_only():
+    programs = [*PROJECT.glob("*.cpp"), *(ROOT / "docs").rglob("*.md")]
+    used = set().union(*(included(path.read_text()) for path in programs))
+    assert len(used) > 5 and used <= set(public_headers())
 
 
 def test_outside_project(build, tmp_path):
