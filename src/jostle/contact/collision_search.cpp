@@ -220,7 +220,7 @@ bool CollisionSearch::may_meet(const InactivePair& pair, const Displacement& i, 
 bool CollisionSearch::is_violated(const PairKey& key, const StepGeometry& step, const Contacts& contacts,
                                   const EndConfiguration& end) const {
     const auto& [i, j, image] = key;
-    const PairGeometry after = end.pair(step.rods, step.box, key);
+    const PairGeometry after = end.pair(step.box, key);
     const double gap = pair_gap(after);
     if (gap >= step.shift.bound(i, j) || is_contact(key, contacts)) return false;
     const PairGeometry before =

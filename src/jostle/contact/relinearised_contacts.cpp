@@ -6,13 +6,13 @@
 
 namespace jostle {
 
-Contacts relinearised_contacts(const Contacts& contacts, const Rods& rods, const Box& box, const EndConfiguration& end,
+Contacts relinearised_contacts(const Contacts& contacts, const Box& box, const EndConfiguration& end,
                                double max_overlap) {
     std::vector<std::uint8_t> overlaps(contacts.size(), 0);
     parallel_for(contacts.size(), [&](std::size_t l) {
         const PairKey key = pair_of(contacts, l);
         if (l > 0 && key == pair_of(contacts, l - 1)) return;
-        const PairGeometry pair = end.pair(rods, box, key);
+        const PairGeometry pair = end.pair(box, key);
         overlaps[l] = gap_of_contact(contacts.contact[l], ContactFeature::nearest, pair) < -max_overlap ? 1 : 0;
     });
     std::vector<std::pair<PairKey, std::size_t>> first;  // of the contacts of each
@@ -25,7 +25,7 @@ Contacts relinearised_contacts(const Contacts& contacts, const Rods& rods, const
 
     Contacts found;
     for (const auto& [key, l] : first) {
-        const PairGeometry pair = end.pair(rods, box, key);
+        const PairGeometry pair = end.pair(box, key);
         const NearestPoints nearest = nearest_points(pair);
         const double distance = norm(nearest.separation);
         if (!(distance > 0.0)) continue;  // the axes cross: no normal can be told
@@ -37,7 +37,7 @@ Contacts relinearised_contacts(const Contacts& contacts, const Rods& rods, const
         contact.arm_i = nearest.s_i;
         contact.arm_j = nearest.s_j;
         const PairGeometry before =
-            pair_geometry(rods, key.i, key.j, box.displacement(key.image), rods.centre, rods.axis);
+            pair_geometry(end.rods, key.i, key.j, box.displacement(key.image), end.rods.centre, end.rods.axis);
         const Vec3 points = before.between + contact.arm_j * before.axis_j - contact.arm_i * before.axis_i;
         contact.gap = dot(points, contact.normal) - pair.radii;
         contact.shifted_gap = side * distance - pair.radii;

@@ -10,7 +10,7 @@ namespace jostle {
 ///
 /// The contact problem is linear in the motion of its step: rods that are turned far in one step overlap to second
 /// order in the angle, where they did not touch before.
-Contacts relinearised_contacts(const Contacts& contacts, const Rods& rods, const Box& box, const EndConfiguration& end,
+Contacts relinearised_contacts(const Contacts& contacts, const Box& box, const EndConfiguration& end,
                                double max_overlap);
 
 }  // namespace jostle

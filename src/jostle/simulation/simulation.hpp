@@ -106,7 +106,7 @@ private:
     void find_mobility();
     void find_search_ranges();
     std::vector<double> gap_velocities(const Contacts& contacts) const;
-    EndConfiguration displace(const ContactMatrix& contact_matrix, const ContactSolution& solution);
+    EndConfiguration end_configuration(const ContactMatrix& contact_matrix, const ContactSolution& solution);
     Contacts relinearised(const ContactProblem& problem, const ContactSolution& solution,
                           const EndConfiguration& end) const;
     bool corrects_brownian_motion() const { return settings_.brownian_correction && settings_.kT > 0.0; }
@@ -140,8 +140,7 @@ private:
     std::vector<SpringPull> pulls_;           ///< of the springs
     Velocities by_springs_;                   ///< (N) their part of U_known; (0) without springs
     SearchRanges ranges_;                     ///< of this step
-    Configuration displaced_;                 ///< (n) of the rods with contacts, at the end of the step
-    std::vector<Displacement> displacement_;  ///< (n) of these, by contact forces
+    std::vector<Displacement> displacement_;  ///< (n) of the rods with contacts, by their forces
     std::vector<Vec3> half_way_axis_;         ///< (N) of rods in contact
     Contacts contacts_;
     ContactSolution solution_;

@@ -159,7 +159,7 @@ void Simulation::collide(Contacts found, const StepGeometry& geometry, StepRepor
     int relinearisations = settings_.look_again ? max_relinearisations : 0;
     while (solver->run_to_next_stop()) {
         const ContactSolution& solution = solver->solution();
-        const EndConfiguration end = displace(problem.contact_matrix(), solution);
+        const EndConfiguration end = end_configuration(problem.contact_matrix(), solution);
         Contacts more;
         if (solver->at_solution() && relinearisations-- > 0) more = relinearised(problem, solution, end);
         const auto violated = search_.violated_pairs(geometry, problem.contacts(), end, solver->at_solution());
@@ -180,7 +180,6 @@ void Simulation::repel(Contacts found, StepReport& report) {
     solution.gamma = wca_forces(found, rods_, settings_.wca_energy);
     ContactProblem problem(rods_, *mobility_at_start_, std::move(found), {}, settings_.time_step);
     problem.complete(solution);
-    displace(problem.contact_matrix(), solution);
     keep(std::move(problem), std::move(solution), report);
 }
 
@@ -210,29 +209,24 @@ std::vector<double> Simulation::gap_velocities(const Contacts& contacts) const {
     return b;
 }
 
-// Theory 2.4: where rods with contacts are after the step, q + dt (U_known + U_C), and what forces add to their known
-// motion.
-EndConfiguration Simulation::displace(const ContactMatrix& contact_matrix, const ContactSolution& solution) {
+// Theory 2.4: where rods are after the step, and what forces add to the known motion of those with contacts.
+EndConfiguration Simulation::end_configuration(const ContactMatrix& contact_matrix, const ContactSolution& solution) {
     const double dt = settings_.time_step;
     const auto rows = contact_matrix.rods();
-    displaced_.resize(rows.size());
     displacement_.resize(rows.size());
     parallel_for(rows.size(), [&](std::size_t k) {
-        const std::uint32_t row = rows[k];
         const auto& [linear, turning] = solution.velocities[k];
-        const Vec3 &axis = rods_.axis[row], &known_angular = known_.velocity.angular[row];
-        displaced_.centre[k] = rods_.centre[row] + dt * (known_.velocity.linear[row] + linear);
-        displaced_.axis[k] = rotated(axis, dt * (known_angular + cross(axis, turning)));
-        const double half = 0.5 * rods_.length[row];
+        const double half = 0.5 * rods_.length[rows[k]];
         // Rotations add up to second order in their angles.
-        const double twist = half * dt * dt * norm(turning) * norm(known_angular);
+        const double twist = half * dt * dt * norm(turning) * norm(known_.velocity.angular[rows[k]]);
         const Vec3 centre = dt * linear, end = (dt * half) * turning;
         const double farthest = farthest_displacement(centre, dt * turning, half) + twist;
         const double rounding = 1e-6 * farthest;
         displacement_[k] = {in_float(centre), in_float(end), static_cast<float>(farthest + rounding),
                             static_cast<float>(twist + rounding)};
     });
-    return {known_.end, contact_matrix.local_index(), rows, displaced_, displacement_};
+    return {rods_, known_.velocity,     known_.end,   dt, contact_matrix.local_index(),
+            rows,  solution.velocities, displacement_};
 }
 
 // Not in the paper (theory, eq. 2.18): the problem again, linear about where its solution takes those rods that would
@@ -241,8 +235,8 @@ Contacts Simulation::relinearised(const ContactProblem& problem, const ContactSo
                                   const EndConfiguration& end) const {
     // Beyond what the solver may leave.
     const double tolerance = settings_.lcp.residual == LcpResidual::length ? settings_.lcp.tolerance : 0.0;
-    Contacts contacts = relinearised_contacts(problem.contacts(), rods_, box_, end,
-                                              max_overlap_of_turning * mean_diameter_ + tolerance);
+    Contacts contacts =
+        relinearised_contacts(problem.contacts(), box_, end, max_overlap_of_turning * mean_diameter_ + tolerance);
     const auto velocity = [&](std::uint32_t row) { return solution.velocities[end.local_index[row]]; };
     for (Contact& contact : contacts.contact)
         contact.shifted_gap -= settings_.time_step * gap_rate(contact, velocity(contact.i), velocity(contact.j));
@@ -311,9 +305,12 @@ void Simulation::measure_spring_stress(StepReport& report) {
 // Theory 2.4: q^{k+1} = q^k + dt (U_known + U_C), axes by the exponential map.
 void Simulation::advance() {
     auto& [centre, axis] = known_.end;
+    const double dt = settings_.time_step;
     parallel_for(solution_.rods.size(), [&](std::size_t k) {
-        centre[solution_.rods[k]] = displaced_.centre[k];
-        axis[solution_.rods[k]] = displaced_.axis[k];
+        const std::uint32_t row = solution_.rods[k];
+        const auto& [linear, turning] = solution_.velocities[k];
+        centre[row] = rods_.centre[row] + dt * (known_.velocity.linear[row] + linear);
+        axis[row] = rotated(rods_.axis[row], dt * (known_.velocity.angular[row] + cross(rods_.axis[row], turning)));
     });
     rods_.centre.swap(centre);
     rods_.axis.swap(axis);

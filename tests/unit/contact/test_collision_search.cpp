@@ -21,7 +21,9 @@ const double spherical_mobility = 0.25 * std::pow(touching / discrete_watching, 
 struct Moves {
     const Rods& rods_before;
     const Box& in_box;
-    Configuration known, displaced;
+    Configuration known;
+    Velocities known_velocity;  ///< in a step of 1
+    std::vector<ContactVelocity> velocity;
     std::vector<double> farthest_known, shift_part;
     std::vector<RodMobility> own;
     std::vector<std::uint32_t> local_index, rows;
@@ -30,6 +32,7 @@ struct Moves {
     Moves(const Rods& rods, const Box& box, double known_size, double forced_size, std::mt19937_64& engine)
         : rods_before(rods),
           in_box(box),
+          known_velocity(rods.size()),
           farthest_known(rods.size()),
           shift_part(rods.size(), touching),
           own(rods.size()),
@@ -39,7 +42,9 @@ struct Moves {
         for (std::uint32_t i = 0; i < rods.size(); ++i) {
             const double half = 0.5 * rods.length[i], lever = 1.0 + half;
             const Vec3 turn = vector(known_size / lever);
-            known.centre.push_back(rods.centre[i] + vector(known_size));
+            known_velocity.linear[i] = vector(known_size);
+            known_velocity.angular[i] = turn;
+            known.centre.push_back(rods.centre[i] + known_velocity.linear[i]);
             known.axis.push_back(rotated(rods.axis[i], turn));
             farthest_known[i] =
                 farthest_displacement(known.centre[i] - rods.centre[i], known.axis[i] - rods.axis[i], half);
@@ -49,9 +54,8 @@ struct Moves {
             if (size == 0.0) continue;
             local_index[i] = static_cast<std::uint32_t>(rows.size());
             rows.push_back(i);
-            displaced.centre.push_back(known.centre[i] + shift);
-            displaced.axis.push_back(rotated(rods.axis[i], turn + more));
-            const Vec3 turned = displaced.axis.back() - known.axis[i];
+            velocity.push_back({shift, cross(more, rods.axis[i])});
+            const Vec3 turned = end().axis(i) - known.axis[i];
             displacement.push_back({in_float(shift), in_float(half * turned),
                                     static_cast<float>(1.00001 * farthest_displacement(shift, turned, half)), 1e-5F});
         }
@@ -64,12 +68,14 @@ struct Moves {
                 {shift_part, rods_before.axis, own, 1.0, 1.0},
                 {displacement_limit, skin, margin, range}};
     }
-    EndConfiguration end() const { return {known, local_index, rows, displaced, displacement}; }
+    EndConfiguration end() const {
+        return {rods_before, known_velocity, known, 1.0, local_index, rows, velocity, displacement};
+    }
     Configuration all_at_end() const {
-        Configuration all = known;
-        for (std::size_t k = 0; k < rows.size(); ++k) {
-            all.centre[rows[k]] = displaced.centre[k];
-            all.axis[rows[k]] = displaced.axis[k];
+        Configuration all;
+        for (std::uint32_t i = 0; i < known.size(); ++i) {
+            all.centre.push_back(end().centre(i));
+            all.axis.push_back(end().axis(i));
         }
         return all;
     }
