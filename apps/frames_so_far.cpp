@@ -67,7 +67,8 @@ std::optional<int> frames_so_far(const std::string& folder, const std::string& b
     const TemporaryFolder temporary(beside);
     if (!kept) {
         journal = temporary.file("journal");
-        TrajectoryJournal::create(journal).append(last->step, last->time, last->box, last->rods);
+        const State& state = last->state;
+        TrajectoryJournal::create(journal).append(state.clock.step, state.clock.time, state.box, state.rods);
     }
     const std::string frames = temporary.file("frames.h5");
     write_h5md(journal, frames, {});

@@ -70,8 +70,7 @@ ExitCode start_run(const RunOptions& options, const RunScene& scene, std::string
     Beginning beginning = beginning_of(scene.scene, scene.path, [&](const Annealing& now) { watch.see(now); });
     const nlohmann::ordered_json start = start_entry(scene.scene, beginning);
     if (!options.quiet && !options.json) std::fputs(start_text(start, watch.seconds()).c_str(), stderr);
-    Simulation simulation =
-        assemble(scene.scene, beginning.box, std::move(beginning.rods), {}, std::move(beginning.springs));
+    Simulation simulation = assemble(scene.scene, std::move(beginning.state));
     if (options.fresh) folder = freed(folder, options.quiet);
     const RunDirectory directory(folder);
     write_scene(scene, directory);
@@ -85,16 +84,15 @@ ExitCode resume_run(const RunOptions& options, const RunScene& scene, const RunD
     require_same_scene(checkpoint, scene.scene, directory.path());
     require_same_springs(
         checkpoint,
-        in_scene_file(scene.path, [&] { return springs_from_file(scene.scene, scene.path, checkpoint.rods); }),
+        in_scene_file(scene.path, [&] { return springs_from_file(scene.scene, scene.path, checkpoint.state.rods); }),
         scene.scene.motion.reversal_rate > 0.0, springs_path(scene.scene, scene.path));
-    StepSums sums = StepSums::from_named(std::move(checkpoint.sums), scene.scene, checkpoint.box);
-    Simulation simulation =
-        assemble(scene.scene, checkpoint.box, std::move(checkpoint.rods), {checkpoint.step, checkpoint.time},
-                 std::move(checkpoint.springs), std::move(checkpoint.last_forces));
+    StepSums sums = StepSums::from_named(std::move(checkpoint.sums), scene.scene, checkpoint.state.box);
+    Simulation simulation = assemble(scene.scene, std::move(checkpoint.state));
     RunFiles files(directory, scene.scene, scene.resolved, simulation, checkpoint.files);
     write_scene(scene, directory);  // it may have another end, and what was there may be damaged
     if (!options.quiet && !options.json)
-        std::fprintf(stderr, "jostle: going on from step %llu\n", static_cast<unsigned long long>(checkpoint.step));
+        std::fprintf(stderr, "jostle: going on from step %llu\n",
+                     static_cast<unsigned long long>(checkpoint.state.clock.step));
     Measurement measurement(scene.scene, simulation, std::move(sums), read_series(directory.file("series.csv")));
     return Run(options, scene, simulation, measurement, files, directory).go();
 }

@@ -46,7 +46,7 @@ ExitCode verify_command(const std::string& folder) {
         latest =
             std::string_view(name) == "checkpoint" ? latest_checkpoint(folder).value() : read_checkpoint(path(name));
         verify_growing_files(folder, *latest);
-        std::printf("%s: sound, step %llu\n", name, static_cast<unsigned long long>(latest->step));
+        std::printf("%s: sound, step %llu\n", name, static_cast<unsigned long long>(latest->state.clock.step));
     }
     if (file_exists(path("series.csv")))
         std::printf("series.csv: sound, %zu rows\n", read_series(path("series.csv")).rows());

@@ -67,7 +67,7 @@ void verify_texts(const std::string& folder, const Checkpoint& checkpoint) {
     verify_resolved(folder, checkpoint, verify_scene(folder, checkpoint));
     verify_descriptions(folder, checkpoint);
     // The first record is written after the first checkpoint, and before the first step.
-    const bool has_record = checkpoint.step > 0 || is_there("run.json");
+    const bool has_record = checkpoint.state.clock.step > 0 || is_there("run.json");
     const bool is_done = has_record && verify_json(folder, "run.json")["exit_reason"] == "done";
     if (is_done || is_there("summary.json")) verify_json(folder, "summary.json");
     if (is_there("post_mortem.json")) verify_json(folder, "post_mortem.json");

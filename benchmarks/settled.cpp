@@ -38,7 +38,7 @@ Scene scene_of(const Crowd& crowd) {
 }
 
 Simulation simulation_of(const Scene& scene, Assembly assembly, Clock clock) {
-    return assemble(scene, assembly.box, std::move(assembly.rods), clock);
+    return assemble(scene, {assembly.box, std::move(assembly.rods), clock});
 }
 
 const Assembly& settled_assembly(const Crowd& crowd) {

@@ -24,7 +24,7 @@ Simulation at_the_start(const SceneInPython& scene) {
     Beginning beginning = beginning_of(scene.scene, scene.path, [](const Annealing&) {
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     });
-    return assemble(scene.scene, beginning.box, std::move(beginning.rods), {}, std::move(beginning.springs));
+    return assemble(scene.scene, std::move(beginning.state));
 }
 
 }  // namespace
@@ -52,8 +52,7 @@ SimulationInPython::SimulationInPython(SceneInPython scene)
 
 SimulationInPython::SimulationInPython(SceneInPython scene, Checkpoint checkpoint)
     : scene_(std::move(scene)),
-      simulation_(assemble(scene_.scene, checkpoint.box, std::move(checkpoint.rods), {checkpoint.step, checkpoint.time},
-                           std::move(checkpoint.springs), std::move(checkpoint.last_forces))),
+      simulation_(assemble(scene_.scene, std::move(checkpoint.state))),
       measurement_(scene_.scene, simulation_,
                    StepSums::from_named(std::move(checkpoint.sums), scene_.scene, simulation_.box())) {}
 

@@ -53,7 +53,7 @@ inline std::uint64_t state_hash(const Simulation& simulation) {
         const CellCycle& cycle = rods.cycle[i];
         hash.add(cycle.growth_rate, cycle.division_at, cycle.birth_step, cycle.divisions, cycle.share);
     }
-    for (const Spring& spring : simulation.springs()) {
+    for (const Spring& spring : simulation.state().springs) {
         hash.add(spring.rod_1, spring.rod_2, spring.s_1, spring.s_2);
         for (const std::int32_t crossed : spring.image) hash.add(crossed);
     }

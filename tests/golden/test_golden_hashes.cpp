@@ -26,8 +26,7 @@ constexpr int steps = 60;
 
 std::string hashes_of(const std::filesystem::path& scene_file) {
     const Scene scene = read_scene(scene_file);
-    Beginning beginning = beginning_of(scene, scene_file);
-    Simulation simulation = assemble(scene, beginning.box, std::move(beginning.rods), {}, beginning.springs);
+    Simulation simulation = assemble(scene, beginning_of(scene, scene_file).state);
     Hash results;
     std::size_t active_contacts = 0;
     for (int k = 0; k < steps; ++k) {

@@ -42,9 +42,9 @@ struct Outcome {
 Outcome outcome_of(const Scene& scene, const Beginning& beginning, Rows rows, int threads) {
     parallel::set_thread_count(threads);
     std::mt19937 random(5);
-    Rods rods = beginning.rods;
+    Rods rods = beginning.state.rods;
     if (rows != Rows::as_they_are) rods = reordered(rods, any_order(rods.size(), random));
-    Simulation simulation = assemble(scene, beginning.box, std::move(rods), {}, beginning.springs);
+    Simulation simulation = assemble(scene, {beginning.state.box, std::move(rods), {}, beginning.state.springs});
     Measurement measurement(scene, simulation);
     Hash results;
     for (int k = 1; k <= steps; ++k) {

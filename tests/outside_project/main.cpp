@@ -14,7 +14,6 @@ int main(int count, char** arguments) {
     for (const double element : stress.total().m) std::printf("%.17g ", element);
     if (count < 2) return 0;
     const Scene scene = read_scene(arguments[1]);
-    Beginning beginning = beginning_of(scene, arguments[1]);
-    const StepReport report = assemble(scene, beginning.box, std::move(beginning.rods), {}).step();
+    const StepReport report = assemble(scene, beginning_of(scene, arguments[1]).state).step();
     for (const double element : report.collision_virial.m) std::printf("%.17g ", element);
 }

@@ -14,7 +14,7 @@ int main() {
     Rods rods;
     rods.push_back(0, {2, 2, 2}, {0, 0, 1}, 0.0, 1.0);
     rods.push_back(1, {2, 8, 8}, {1, 0, 0}, 0.0, 1.0);
-    Simulation simulation = assemble(scene, Box{{10, 10, 10}, {true, true, true}}, rods, {});
+    Simulation simulation = assemble(scene, {Box{{10, 10, 10}, {true, true, true}}, rods});
     simulation.add(std::make_unique<ConstantForce>(Vec3{3, 0, 0}));
     for (int step = 0; step < 10; ++step) simulation.step();
     for (const Vec3& centre : simulation.rods().centre) std::printf("%.17g ", centre.x - 2.0);

@@ -89,7 +89,7 @@ Rods start_of(const Scene& scene, int threads) {
 
 Outcome outcome_of(const Scene& scene, const Rods& start, int steps, int threads) {
     const ThreadCount thread_count(threads);
-    Simulation simulation = assemble(scene, cube_of(scene), start, {});
+    Simulation simulation = assemble(scene, {cube_of(scene), start});
     Outcome outcome;
     for (int k = 0; k < steps; ++k) {
         const StepReport report = simulation.step();

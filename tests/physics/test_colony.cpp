@@ -24,7 +24,7 @@ TEST_CASE("ten thousand cells from one: no overlap above the tolerance after any
     scene.growth.division_deviation = 0.1;
     Rods rods;
     rods.push_back(0, {500, 500, 500}, {1, 0, 0}, 2.0, 1.0);
-    Simulation simulation = assemble(scene, {{1000, 1000, 1000}, {false, false, false}}, std::move(rods), {});
+    Simulation simulation = assemble(scene, {{{1000, 1000, 1000}, {false, false, false}}, std::move(rods)});
     double largest = 0.0, left = 0.0;
     std::uint64_t births = 0, iterations = 0;
     while (simulation.rods().size() < 10000) {

@@ -90,7 +90,7 @@ Simulation with_twins(const Simulation& plain, SolverMethod method, double toler
     auto mobility = std::make_unique<TwinMobility>(plain.mobility().at(plain.rods(), plain.box())->of_rod(0).parallel);
     std::vector<std::unique_ptr<Motion>> motions;
     motions.push_back(std::make_unique<BrownianMotion>(settings.kT));
-    return Simulation(plain.box(), plain.rods(), plain.clock(), std::move(mobility), std::move(motions), settings);
+    return Simulation(plain.state(), std::move(mobility), std::move(motions), settings);
 }
 
 }  // namespace
@@ -98,7 +98,7 @@ Simulation with_twins(const Simulation& plain, SolverMethod method, double toler
 TEST_CASE("contacts of rods that a mobility couples: all solvers for them agree, and forces move the twins, too") {
     const Scene scene = scene_of(0.45);
     const Box box{box_edges(scene), {true, true, true}};
-    Simulation plain = assemble(scene, box, make_start(scene, box), {});
+    Simulation plain = assemble(scene, {box, make_start(scene, box)});
     for (int step = 0; step < 20; ++step) REQUIRE(plain.step().status == LcpStatus::converged);
     std::vector<Mat3> virials;
     for (const SolverMethod method : {SolverMethod::automatic, SolverMethod::adaptive_bb, SolverMethod::bbpgd,
@@ -153,7 +153,7 @@ TEST_CASE("spheres that a mobility couples have the pressure of hard spheres") {
     const double expected = (1 + phi + phi * phi - phi * phi * phi) / std::pow(1 - phi, 3);  // Carnahan-Starling
     const Scene scene = scene_of(phi);
     const Box box{box_edges(scene), {true, true, true}};
-    const Simulation plain = assemble(scene, box, make_start(scene, box), {});
+    const Simulation plain = assemble(scene, {box, make_start(scene, box)});
     Simulation simulation = with_twins(plain, SolverMethod::automatic, plain.settings().lcp.tolerance);
     std::vector<double> rows;
     for (int step = 0; step < 3500; ++step) {

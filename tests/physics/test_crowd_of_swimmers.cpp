@@ -63,7 +63,7 @@ TEST_CASE("active stress of spheres in a crowd, from paths and from velocities")
     const Scene scene = crowd();
     MESSAGE("seed " << scene.seed);
     const Box box{box_edges(scene), {true, true, true}};
-    Simulation simulation = assemble(scene, box, make_start(scene, box), {});
+    Simulation simulation = assemble(scene, {box, make_start(scene, box)});
     const RodMobility own = simulation.mobility().at(simulation.rods(), box)->of_rod(0);
     const double dt = *scene.time.step, D_R = own.rotational;
     const double variance = 2.0 * D_R * dt;

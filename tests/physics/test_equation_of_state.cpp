@@ -18,7 +18,7 @@ namespace {
 
 constexpr int steps_per_row = 10;
 
-struct State {
+struct StatePoint {
     double aspect_ratio, volume_fraction, Z, Z_error;
     int equilibration_rows, production_rows;
     double diameter_deviation = 0.0, rms_step = 0.03;
@@ -43,7 +43,7 @@ double mixture(const Scene& scene) {
            phi * phi * (3.0 - phi) / (room * room * room) * m2 * m2 * m2 / (m3 * m3);
 }
 
-Scene scene_of(const State& state) {
+Scene scene_of(const StatePoint& state) {
     Scene scene;
     scene.seed = 20261120;
     scene.box.volume_fraction = state.volume_fraction;
@@ -54,10 +54,10 @@ Scene scene_of(const State& state) {
     return scene;
 }
 
-Average measured_Z(const State& state) {
+Average measured_Z(const StatePoint& state) {
     const Scene scene = scene_of(state);
     const Box box{box_edges(scene), {true, true, true}};
-    Simulation simulation = assemble(scene, box, make_start(scene, box), {});
+    Simulation simulation = assemble(scene, {box, make_start(scene, box)});
     std::vector<double> rows;
     for (int row = 0; row < state.equilibration_rows + state.production_rows; ++row) {
         double virial = 0.0;
@@ -71,7 +71,7 @@ Average measured_Z(const State& state) {
     return average(rows);
 }
 
-void check(const State& state) {
+void check(const StatePoint& state) {
     const Average Z = measured_Z(state);
     REQUIRE(Z.standard_error.has_value());
     const double error = std::hypot(*Z.standard_error, state.Z_error);
@@ -84,7 +84,7 @@ void check(const State& state) {
 }  // namespace
 
 TEST_CASE("Z agrees with published and recomputed values within 1 % plus two standard errors") {
-    const std::vector<State> states = {
+    const std::vector<StatePoint> states = {
         {0, 0.10, carnahan_starling(0.10), 0.0, 60, 400},
         {0, 0.20, carnahan_starling(0.20), 0.0, 60, 300},
         {0, 0.30, carnahan_starling(0.30), 0.0, 60, 400},
@@ -94,12 +94,12 @@ TEST_CASE("Z agrees with published and recomputed values within 1 % plus two sta
         {5, 0.20, 4.2657, 0.0109, 200, 900},
         {10, 0.10, 2.9090, 0.0033, 150, 1200},
     };
-    for (const State& state : states) check(state);
+    for (const StatePoint& state : states) check(state);
 }
 
 TEST_CASE("spheres of many diameters have the Z of their mixture, which is not that of spheres alike") {
     // rms step in diameters of the smallest, 0.55
-    State state = {0, 0.30, 0.0, 0.0, 60, 600, 0.15, 0.06};
+    StatePoint state = {0, 0.30, 0.0, 0.0, 60, 600, 0.15, 0.06};
     state.Z = mixture(scene_of(state));
     CHECK(state.Z < 0.97 * carnahan_starling(0.30));
     check(state);

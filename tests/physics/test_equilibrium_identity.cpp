@@ -31,10 +31,10 @@ TEST_CASE("the stress anisotropy of a nematic is that of Z and the order tensor"
     const Box box{{2.0 * edge, edge, edge}, {true, true, true}};
     // Large steps take the perfectly aligned start to a nematic; their error is forgotten in the steps that follow.
     scene.time.rms_step = 0.1;
-    Simulation fast = assemble(scene, box, make_start(scene, box), {});
+    Simulation fast = assemble(scene, {box, make_start(scene, box)});
     for (int step = 0; step < 900; ++step) REQUIRE(fast.step().status == LcpStatus::converged);
     scene.time.rms_step = 0.05;
-    Simulation simulation = assemble(scene, box, fast.rods(), fast.clock());
+    Simulation simulation = assemble(scene, fast.state());
 
     // Columns: normal difference, along the mean director (x) less across it, of the stress and of its geometric part,
     // V Sigma/(N kT), and the order tensor's xx, averaged over 10 steps.

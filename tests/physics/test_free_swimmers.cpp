@@ -147,7 +147,7 @@ TEST_CASE("without noise a rod moves U_0 t along its axis") {
     Swimmers swimmers({"", false, 0.0, 0.0, 0.0});
     swimmers.scene.rods.count = 10;
     const Box box{box_edges(swimmers.scene), {true, true, true}};
-    Simulation simulation = assemble(swimmers.scene, box, make_start(swimmers.scene, box), {});
+    Simulation simulation = assemble(swimmers.scene, {box, make_start(swimmers.scene, box)});
     const Rods start = simulation.rods();
     for (int step = 0; step < steps; ++step) REQUIRE(simulation.step().status == LcpStatus::converged);
     const std::vector<Vec3> end = unwrapped_by_id(simulation);
@@ -165,7 +165,7 @@ TEST_CASE("diffusion and active stress of free swimmers") {
         const Scene& scene = swimmers.scene;
         MESSAGE(kind.name);
         const Box box{box_edges(scene), {true, true, true}};
-        Simulation simulation = assemble(scene, box, make_start(scene, box), {});
+        Simulation simulation = assemble(scene, {box, make_start(scene, box)});
         const SelfPropulsion propulsion(swimming_of(scene));
         for (int step = 0; step < settling; ++step) REQUIRE(simulation.step().status == LcpStatus::converged);
         const std::vector<Vec3> begin = unwrapped_by_id(simulation);

@@ -38,7 +38,7 @@ Measured measure(const Case& test) {
     scene.time.rms_step = test.rms_step;
     Rods rods;
     rods.push_back(0, {0.5, 6, 6}, {0, 0, 1}, test.length, 1.0);
-    Simulation simulation = assemble(scene, {{test.edge, 12, 12}, {true, true, true}}, rods, {});
+    Simulation simulation = assemble(scene, {{{test.edge, 12, 12}, {true, true, true}}, rods});
     std::vector<double> block;
     Measured result;
     for (int k = -1; k < blocks; ++k) {

@@ -30,12 +30,12 @@ TEST_CASE("all solvers, step rules and residuals give the same forces on the rod
         scene.solver.max_iterations = 200000;
         const Box small{edges, {true, true, true}};
         // Some steps first: perfectly parallel rods are too easy.
-        Simulation settled = assemble(scene, small, make_start(scene, small), {});
+        Simulation settled = assemble(scene, {small, make_start(scene, small)});
         for (int step = 0; step < 10; ++step) REQUIRE(settled.step().status == LcpStatus::converged);
         std::vector<Mat3> virials;
         std::vector<std::vector<Vec3>> forces;  // (solvers, N)
         const auto solve = [&]() {
-            Simulation simulation = assemble(scene, small, settled.rods(), settled.clock());
+            Simulation simulation = assemble(scene, settled.state());
             const StepReport report = simulation.step();
             REQUIRE(report.status == LcpStatus::converged);
             virials.push_back(report.collision_virial);

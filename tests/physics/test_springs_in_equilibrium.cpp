@@ -86,7 +86,7 @@ TEST_CASE("points on springs: <r^2> of the discrete step, and the virial -3 kT a
     const double expected = 3.0 * kT / stiffness / (1.0 - 0.5 * a);
     Dimers dimers(10, 0.0, diameter, {0, 0, 0.0, 0.0, 0.0, stiffness, {}}, 0.0, std::sqrt(expected / 3.0));
     dimers.scene.time.step = a / (2.0 * stiffness) * 3.0 * std::acos(-1.0) * diameter;
-    Simulation simulation = assemble(dimers.scene, dimers.box, dimers.rods, {}, dimers.springs);
+    Simulation simulation = assemble(dimers.scene, {dimers.box, dimers.rods, {}, dimers.springs});
     const double count = static_cast<double>(dimers.springs.size());
     const int steps = static_cast<int>(4.0 / a);  // a block: exp(-4) of the distance, exp(-8) of its square is left
     BlockMean square, virial;
@@ -110,7 +110,7 @@ TEST_CASE("rods joined end to end, which collide: the pressure of a dimer is kT/
     const double length = 0.5, rest = 1.1;
     Dimers dimers(5, length, 1.0, {0, 0, 0.5 * length, -0.5 * length, rest, 30.0, {}}, length + rest, 0.0);
     dimers.scene.time.rms_step = 0.06;
-    Simulation simulation = assemble(dimers.scene, dimers.box, dimers.rods, {}, dimers.springs);
+    Simulation simulation = assemble(dimers.scene, {dimers.box, dimers.rods, {}, dimers.springs});
     const double count = static_cast<double>(dimers.springs.size());
     for (int step = 0; step < 4000; ++step) simulation.step();
     BlockMean inside, collisions;

@@ -42,7 +42,7 @@ struct Means {
 Means grow(double time_step) {
     const Scene scene = crowd(time_step);
     const Box box{box_edges(scene, rods_volume(scene)), {true, true, true}};
-    Simulation simulation = assemble(scene, box, make_start(scene, box), {});
+    Simulation simulation = assemble(scene, {box, make_start(scene, box)});
     const auto steps = static_cast<int>(std::lround(memory / time_step));
     Means means;
     double squares = 0.0;

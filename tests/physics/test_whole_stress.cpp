@@ -58,7 +58,7 @@ TEST_CASE("one rod that meets its own image: the exact stress along and across")
     Rods rods;
     rods.push_back(0, {0.5, 2, 2}, {0, 0, 1}, 1.5, 1.0);
     const double q = 1.0 / (1.5 * 1.5);
-    Simulation simulation = assemble(scene, {{1.5, 6, 6}, {true, true, true}}, rods, {});
+    Simulation simulation = assemble(scene, {{{1.5, 6, 6}, {true, true, true}}, rods});
     const auto columns = measured(simulation, 6000, 100);
     const double exact[] = {1.0 / (1.0 - q), 1.0};
     for (const std::size_t column : {whole_along, whole_across}) {
@@ -83,7 +83,7 @@ TEST_CASE("a rod alone: the orientation stress vanishes in the mean, and the who
     scene.rods.length = 1.5;
     scene.time.rms_step = 0.06;
     Simulation simulation =
-        assemble(scene, {{6, 6, 6}, {true, true, true}}, make_start(scene, {{6, 6, 6}, {true, true, true}}), {});
+        assemble(scene, {{{6, 6, 6}, {true, true, true}}, make_start(scene, {{6, 6, 6}, {true, true, true}})});
     const auto columns = measured(simulation, 4000, 50);
     for (const std::size_t column : {whole_along, whole_across}) {
         const Estimate found = mean_of(columns, column);
@@ -108,10 +108,10 @@ TEST_CASE("a nematic of rods of two lengths pushes alike in all directions") {
     for (std::size_t i = 0; i < rods.size(); i += 2) rods.length[i] = 5.0;  // volume fraction 0.44
     // Large steps take the perfectly aligned start to a nematic; their error is forgotten in the steps that follow.
     scene.time.rms_step = 0.1;
-    Simulation fast = assemble(scene, box, std::move(rods), {});
+    Simulation fast = assemble(scene, {box, std::move(rods)});
     for (int step = 0; step < 1000; ++step) REQUIRE(fast.step().status == LcpStatus::converged);
     scene.time.rms_step = 0.05;
-    Simulation simulation = assemble(scene, box, fast.rods(), fast.clock());
+    Simulation simulation = assemble(scene, fast.state());
     for (int step = 0; step < 500; ++step) REQUIRE(simulation.step().status == LcpStatus::converged);
     const auto columns = measured(simulation, 1300, 10);
     const auto ratio_less_1 = [&](std::size_t along, std::size_t across) {

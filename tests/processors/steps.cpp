@@ -24,7 +24,7 @@ int main() try {
     scene.motion.self_propulsion = 20.0;
     scene.motion.tumble_rate = 2.0;
     const Box box{box_edges(scene)};
-    Simulation simulation = assemble(scene, box, make_start(scene, box), {});
+    Simulation simulation = assemble(scene, {box, make_start(scene, box)});
     for (int k = 0; k < 100; ++k) {
         const StepReport report = simulation.step();
         const Mat3& virial = report.collision_virial;

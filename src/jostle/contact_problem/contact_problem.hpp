@@ -12,8 +12,9 @@ namespace jostle {
 /// that it owns. A solver holds a reference, and takes in what is appended when it goes on.
 class ContactProblem {
 public:
-    /// `b`: (contacts) the velocity of each gap without forces. `compliance`: kappa of the DelassusOperator. `start`:
-    /// (contacts) forces to begin from; empty: from 0. Holds references to rods and mobility.
+    /// `b`: (contacts) the velocity of each gap without forces; empty where forces are not sought. `compliance`: kappa
+    /// of the DelassusOperator. `start`: (contacts) forces to begin from; empty: from 0. Holds references to rods and
+    /// mobility.
     ContactProblem(const Rods& rods, const MobilityOperator& mobility, Contacts contacts, std::vector<double> b,
                    double time_step, double compliance = 0.0, std::vector<double> start = {})
         : contacts_(std::move(contacts)),
@@ -33,7 +34,7 @@ public:
         matrix_.extend();
     }
 
-    std::size_t size() const { return b_.size(); }
+    std::size_t size() const { return contacts_.size(); }
     const Contacts& contacts() const { return contacts_; }
     const ContactMatrix& contact_matrix() const { return contact_matrix_; }
     const DelassusOperator& matrix() const { return matrix_; }

@@ -119,12 +119,7 @@ StepSums StepSums::from_named(NamedNumbers numbers, const Scene& scene, const Bo
 Checkpoint checkpoint_of(const Simulation& simulation, const StepSums& sums, std::string scene) {
     Checkpoint checkpoint;
     checkpoint.scene = std::move(scene);
-    checkpoint.step = simulation.clock().step;
-    checkpoint.time = simulation.clock().time;
-    checkpoint.box = simulation.box();
-    checkpoint.rods = in_order_of_ids(simulation.rods());
-    checkpoint.springs.assign(simulation.springs().begin(), simulation.springs().end());
-    checkpoint.last_forces = simulation.last_forces();
+    checkpoint.state = in_order_of_ids(simulation.state());
     checkpoint.sums = sums.to_named();
     return checkpoint;
 }

@@ -9,8 +9,8 @@
 
 namespace jostle {
 
-Springs::Springs(std::vector<Spring> springs) : springs_(std::move(springs)) {
-    for (const Spring& spring : springs_) {
+void require_sound_springs(std::span<const Spring> springs) {
+    for (const Spring& spring : springs) {
         require_value(std::isfinite(spring.stiffness) && spring.stiffness >= 0.0, "stiffness", spring.stiffness,
                       "is no stiffness of a spring", ">= 0, finite");
         require_value(std::isfinite(spring.rest_length) && spring.rest_length >= 0.0, "rest_length", spring.rest_length,
@@ -18,11 +18,11 @@ Springs::Springs(std::vector<Spring> springs) : springs_(std::move(springs)) {
     }
 }
 
-void Springs::turn_round(std::span<const std::uint64_t> ids) {
+void turn_round(std::span<Spring> springs, std::span<const std::uint64_t> ids) {
     const std::unordered_set<std::uint64_t> turned(ids.begin(), ids.end());
     if (turned.empty()) return;
-    parallel_for(springs_.size(), [&](std::size_t l) {
-        Spring& spring = springs_[l];
+    parallel_for(springs.size(), [&](std::size_t l) {
+        Spring& spring = springs[l];
         if (turned.contains(spring.rod_1)) spring.s_1 = -spring.s_1;
         if (turned.contains(spring.rod_2)) spring.s_2 = -spring.s_2;
     });

@@ -9,31 +9,14 @@
 
 namespace jostle {
 
-/// Springs between rods: U = M F with their forces and torques as the step begins (theory, eq. 2.16).
-///
-/// Explicit in time: steps must be short beside what springs need to relax, see `spring_relaxation`.
-class Springs {
-public:
-    /// Throws InputError for a stiffness or a rest length that is negative or not finite.
-    explicit Springs(std::vector<Spring> springs);
+// Springs between rods: U = M F with their forces and torques as the step begins (theory, eq. 2.16). Explicit in time:
+// steps must be short beside what springs need to relax, see `spring_relaxation`. Forces: rods/spring.hpp.
 
-    /// Their pulls as the rods stand, one a spring. Throws InputError if a spring names a rod that is not there.
-    std::vector<SpringPull> pulls(const Rods& rods, const Box& box) const { return spring_pulls(springs_, rods, box); }
+/// Throws InputError for a stiffness or a rest length that is negative or not finite.
+void require_sound_springs(std::span<const Spring> springs);
 
-    /// Forces and torques of these pulls on the rods (N).
-    Forces forces(const Rods& rods, std::span<const SpringPull> pulls) const {
-        return spring_forces(springs_, pulls, rods);
-    }
-
-    /// As they are now: rods that turned round have taken the springs' points along.
-    const std::vector<Spring>& springs() const { return springs_; }
-
-    /// Rods of these ids have exchanged head and tail: a point s along the old axis is at -s along the new one.
-    void turn_round(std::span<const std::uint64_t> ids);
-
-private:
-    std::vector<Spring> springs_;
-};
+/// Rods of these ids have exchanged head and tail: a point s along the old axis is at -s along the new one.
+void turn_round(std::span<Spring> springs, std::span<const std::uint64_t> ids);
 
 using MobilityOfRod = std::function<RodMobility(std::uint64_t id)>;
 

@@ -95,29 +95,29 @@ std::vector<Spring> take_springs(FieldReader& reader) {
     return springs;
 }
 
-void put_forces(FieldWriter& writer, const std::vector<LastForce>& forces) {
-    writer.put_column("forces.i", forces, [](const LastForce& force) { return force.i; });
-    writer.put_column("forces.j", forces, [](const LastForce& force) { return force.j; });
+void put_forces(FieldWriter& writer, const std::vector<PreviousForce>& forces) {
+    writer.put_column("forces.i", forces, [](const PreviousForce& force) { return force.i; });
+    writer.put_column("forces.j", forces, [](const PreviousForce& force) { return force.j; });
     writer.put_column("forces.feature", forces,
-                      [](const LastForce& force) { return static_cast<std::uint8_t>(force.feature); });
+                      [](const PreviousForce& force) { return static_cast<std::uint8_t>(force.feature); });
     writer.put_column("forces.upper", forces,
-                      [](const LastForce& force) { return static_cast<std::uint8_t>(force.upper); });
-    writer.put_column("forces.gamma", forces, [](const LastForce& force) { return force.gamma; });
+                      [](const PreviousForce& force) { return static_cast<std::uint8_t>(force.upper); });
+    writer.put_column("forces.gamma", forces, [](const PreviousForce& force) { return force.gamma; });
 }
 
-std::vector<LastForce> take_forces(FieldReader& reader) {
-    std::vector<LastForce> forces(reader.length<std::uint64_t>("forces.i"));
-    reader.take_column<std::uint64_t>("forces.i", forces, [](LastForce& of, std::uint64_t value) { of.i = value; });
-    reader.take_column<std::uint64_t>("forces.j", forces, [](LastForce& of, std::uint64_t value) { of.j = value; });
-    reader.take_column<std::uint8_t>("forces.feature", forces, [](LastForce& of, std::uint8_t value) {
+std::vector<PreviousForce> take_forces(FieldReader& reader) {
+    std::vector<PreviousForce> forces(reader.length<std::uint64_t>("forces.i"));
+    reader.take_column<std::uint64_t>("forces.i", forces, [](PreviousForce& of, std::uint64_t value) { of.i = value; });
+    reader.take_column<std::uint64_t>("forces.j", forces, [](PreviousForce& of, std::uint64_t value) { of.j = value; });
+    reader.take_column<std::uint8_t>("forces.feature", forces, [](PreviousForce& of, std::uint8_t value) {
         if (value > static_cast<std::uint8_t>(ContactFeature::end_of_j))
             throw std::out_of_range("a contact force of no such contact");
         of.feature = static_cast<ContactFeature>(value);
     });
     reader.take_column<std::uint8_t>("forces.upper", forces,
-                                     [](LastForce& of, std::uint8_t value) { of.upper = value != 0; });
-    reader.take_column<double>("forces.gamma", forces, [](LastForce& of, double value) { of.gamma = value; });
-    for (const LastForce& force : forces)
+                                     [](PreviousForce& of, std::uint8_t value) { of.upper = value != 0; });
+    reader.take_column<double>("forces.gamma", forces, [](PreviousForce& of, double value) { of.gamma = value; });
+    for (const PreviousForce& force : forces)
         if (force.i > force.j) throw std::out_of_range("a contact force that is none");
     return forces;
 }
@@ -125,15 +125,15 @@ std::vector<LastForce> take_forces(FieldReader& reader) {
 FieldWriter fields_of(const Checkpoint& checkpoint) {
     FieldWriter writer;
     writer.put_text("scene", checkpoint.scene);
-    writer.put("step", checkpoint.step);
-    writer.put("time", checkpoint.time);
-    writer.put("box.edges", checkpoint.box.edges);
+    writer.put("step", checkpoint.state.clock.step);
+    writer.put("time", checkpoint.state.clock.time);
+    writer.put("box.edges", checkpoint.state.box.edges);
     std::array<std::uint8_t, 3> periodic{};
-    std::copy(checkpoint.box.periodic.begin(), checkpoint.box.periodic.end(), periodic.begin());
+    std::copy(checkpoint.state.box.periodic.begin(), checkpoint.state.box.periodic.end(), periodic.begin());
     writer.put("box.periodic", periodic);
-    put_rods(writer, checkpoint.rods);
-    put_springs(writer, checkpoint.springs);
-    put_forces(writer, checkpoint.last_forces);
+    put_rods(writer, checkpoint.state.rods);
+    put_springs(writer, checkpoint.state.springs);
+    put_forces(writer, checkpoint.state.previous_forces);
     for (const auto& [name, values] : checkpoint.sums) writer.put_array("sums." + name, values);
     for (const auto& [name, position] : checkpoint.files)
         writer.put("files." + name, std::array{position.bytes, position.hash});
@@ -144,14 +144,14 @@ Checkpoint from_fields(std::string_view payload) {
     FieldReader reader(payload);
     Checkpoint checkpoint;
     checkpoint.scene = reader.take_text("scene");
-    checkpoint.step = reader.take<std::uint64_t>("step");
-    checkpoint.time = reader.take<double>("time");
-    checkpoint.box.edges = reader.take<Vec3>("box.edges");
+    checkpoint.state.clock.step = reader.take<std::uint64_t>("step");
+    checkpoint.state.clock.time = reader.take<double>("time");
+    checkpoint.state.box.edges = reader.take<Vec3>("box.edges");
     const auto periodic = reader.take<std::array<std::uint8_t, 3>>("box.periodic");
-    for (std::size_t k = 0; k < 3; ++k) checkpoint.box.periodic[k] = periodic[k] != 0;
-    checkpoint.rods = take_rods(reader);
-    checkpoint.springs = take_springs(reader);
-    checkpoint.last_forces = take_forces(reader);
+    for (std::size_t k = 0; k < 3; ++k) checkpoint.state.box.periodic[k] = periodic[k] != 0;
+    checkpoint.state.rods = take_rods(reader);
+    checkpoint.state.springs = take_springs(reader);
+    checkpoint.state.previous_forces = take_forces(reader);
     for (const std::string& name : reader.names_after("sums."))
         checkpoint.sums[name] = reader.take_array<double>("sums." + name);
     for (const std::string& name : reader.names_after("files.")) {
@@ -199,7 +199,7 @@ std::string_view verified_payload(const std::string& path, std::string_view file
 std::string way_out(const std::string& path, const std::string& previous) {
     if (!file_exists(previous)) return start_again;
     try {
-        const std::uint64_t step = read_checkpoint(previous).step;
+        const std::uint64_t step = read_checkpoint(previous).state.clock.step;
         return "The one before it, " + previous + " (step " + std::to_string(step) + "), is sound: remove " + path +
                " to go on from there, or start again with --fresh";
     } catch (const InputError&) {
@@ -271,9 +271,9 @@ void require_same_springs(const Checkpoint& checkpoint, std::vector<Spring> spri
         throw refused_file(path, problem,
                            "Restore the file, give another folder with --out, or start again with --fresh");
     };
-    if (springs.size() != checkpoint.springs.size())
+    if (springs.size() != checkpoint.state.springs.size())
         refuse("holds " + std::to_string(springs.size()) + " springs, and the run began with " +
-               std::to_string(checkpoint.springs.size()));
+               std::to_string(checkpoint.state.springs.size()));
     std::unordered_map<std::uint64_t, bool> turned;
     // A rod that has turned round has taken all its points along.
     const auto turn_as_now = [&](std::uint64_t rod, double& s, double now) {
@@ -282,10 +282,10 @@ void require_same_springs(const Checkpoint& checkpoint, std::vector<Spring> spri
     };
     for (std::size_t l = 0; l < springs.size(); ++l) {
         Spring& spring = springs[l];
-        spring.image = checkpoint.springs[l].image;
-        turn_as_now(spring.rod_1, spring.s_1, checkpoint.springs[l].s_1);
-        turn_as_now(spring.rod_2, spring.s_2, checkpoint.springs[l].s_2);
-        if (!(spring == checkpoint.springs[l]))
+        spring.image = checkpoint.state.springs[l].image;
+        turn_as_now(spring.rod_1, spring.s_1, checkpoint.state.springs[l].s_1);
+        turn_as_now(spring.rod_2, spring.s_2, checkpoint.state.springs[l].s_2);
+        if (!(spring == checkpoint.state.springs[l]))
             refuse("spring " + std::to_string(l + 1) + " is not the one that the run began with");
     }
 }

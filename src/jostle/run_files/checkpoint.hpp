@@ -6,11 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "jostle/contact_problem/warm_start.hpp"
 #include "jostle/math/named_numbers.hpp"
-#include "jostle/rods/box.hpp"
-#include "jostle/rods/rods.hpp"
-#include "jostle/rods/spring.hpp"
+#include "jostle/state/state.hpp"
 
 namespace jostle {
 
@@ -25,15 +22,10 @@ using FilePositions = std::map<std::string, FilePosition>;  ///< by the names of
 
 /// Everything that a run needs to go on as if it had never stopped: the state, and how far its files had come.
 struct Checkpoint {
-    std::string scene;                   ///< resolved scene; a scene of the same physics is needed to go on
-    std::uint64_t step = 0;              ///< steps done
-    double time = 0.0;                   ///< simulated time
-    Box box;                             ///< at that time
-    Rods rods;                           ///< at that time, double precision
-    std::vector<Spring> springs;         ///< between them, with the images that they hold
-    std::vector<LastForce> last_forces;  ///< that the next step begins from, if any
-    NamedNumbers sums;                   ///< of the run so far, `StepSums::to_named`
-    FilePositions files;                 ///< of the run's growing files
+    std::string scene;  ///< resolved scene; a scene of the same physics is needed to go on
+    State state;
+    NamedNumbers sums;    ///< of the run so far, `StepSums::to_named`
+    FilePositions files;  ///< of the run's growing files
 };
 
 /// Writes FOLDER/checkpoint, and keeps the one before as FOLDER/checkpoint.previous.

@@ -96,13 +96,13 @@ void check_springs(const std::vector<Spring>& springs, std::size_t rods, Content
 
 std::string impossible_content(const Checkpoint& checkpoint) {
     ContentCheck check;
-    check.require(checkpoint.step <= most_steps, "step", static_cast<double>(checkpoint.step));
-    check.require(is_zero_or_positive(checkpoint.time), "time", checkpoint.time);
-    check_box(checkpoint.box, check);
-    check_rods(checkpoint.rods, checkpoint.box, check);
-    check_ids(checkpoint.rods, check);
-    check_springs(checkpoint.springs, checkpoint.rods.size(), check);
-    for (const LastForce& force : checkpoint.last_forces)
+    check.require(checkpoint.state.clock.step <= most_steps, "step", static_cast<double>(checkpoint.state.clock.step));
+    check.require(is_zero_or_positive(checkpoint.state.clock.time), "time", checkpoint.state.clock.time);
+    check_box(checkpoint.state.box, check);
+    check_rods(checkpoint.state.rods, checkpoint.state.box, check);
+    check_ids(checkpoint.state.rods, check);
+    check_springs(checkpoint.state.springs, checkpoint.state.rods.size(), check);
+    for (const PreviousForce& force : checkpoint.state.previous_forces)
         check.require(is_zero_or_positive(force.gamma), "contact force", force.gamma);
     return check.problem();
 }

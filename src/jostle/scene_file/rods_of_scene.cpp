@@ -121,23 +121,25 @@ Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_pa
     return in_scene_file(scene_path, [&] {
         const auto from_file = rods_from_file(scene, scene_path);
         const Box box = box_of(scene, from_file);
-        Beginning beginning = {box, {}, {}, {}};
-        beginning.rods = make_start(scene, box, from_file, [&](const Annealing& now) {
+        Beginning beginning = {{box, {}}};
+        Rods& rods = beginning.state.rods;
+        rods = make_start(scene, box, from_file, [&](const Annealing& now) {
             beginning.annealing = now;
             if (watch) watch(now);
         });
         const auto model = make_mobility(scene);
-        const auto mobility = model->at(beginning.rods, box);
-        const double step = time_step(scene, *mobility, beginning.rods);
+        const auto mobility = model->at(rods, box);
+        const double step = time_step(scene, *mobility, rods);
         require_countable_steps(scene, step);
-        require_slow_swimmers(scene, beginning.rods, step);
-        require_room_between_images(scene, box, *mobility, beginning.rods, step);
-        require_soft_potential(scene, *mobility, beginning.rods, step);
+        require_slow_swimmers(scene, rods, step);
+        require_room_between_images(scene, box, *mobility, rods, step);
+        require_soft_potential(scene, *mobility, rods, step);
         make_field(scene, box);  // for what it refuses
-        beginning.springs = springs_from_file(scene, scene_path, beginning.rods);
-        hold_nearest_images(beginning.springs, beginning.rods, box);
+        std::vector<Spring>& springs = beginning.state.springs;
+        springs = springs_from_file(scene, scene_path, rods);
+        hold_nearest_images(springs, rods, box);
         const auto mobility_of = [&](std::uint64_t id) { return mobility->of_rod(id); };  // at the start rows are ids
-        require_slow_springs(scene, beginning.springs, mobility_of, step);
+        require_slow_springs(scene, springs, mobility_of, step);
         return beginning;
     });
 }

@@ -7,20 +7,17 @@
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/rods/box.hpp"
-#include "jostle/rods/rods.hpp"
-#include "jostle/rods/spring.hpp"
 #include "jostle/scene/scene.hpp"
 #include "jostle/scene_file/scene_reader.hpp"
 #include "jostle/setup/anneal.hpp"
+#include "jostle/state/state.hpp"
 
 namespace jostle {
 
-/// Rods and box of a scene, before any step.
+/// A scene before any step.
 struct Beginning {
-    Box box;
-    Rods rods;
-    std::vector<Spring> springs;
-    Annealing annealing;  ///< of a random start
+    State state;
+    Annealing annealing = {};  ///< of a random start
 };
 
 /// Reads the rods file of a scene with start = "file", if it has one; a relative path counts from the scene's folder.

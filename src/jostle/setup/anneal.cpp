@@ -129,7 +129,7 @@ private:
         motions.push_back(std::make_unique<BrownianMotion>(settings.kT));
         // Random numbers of its own, far from those of the run.
         const Clock clock{(std::uint64_t{1} << 39) + static_cast<std::uint64_t>(done_.steps), 0.0};
-        return Simulation(box_, rods_, clock, std::make_unique<DragMobility>(pushing_drag(true)), std::move(motions),
+        return Simulation({box_, rods_, clock}, std::make_unique<DragMobility>(pushing_drag(true)), std::move(motions),
                           settings);
     }
 

@@ -84,14 +84,13 @@ std::optional<StressField> make_field(const Scene& scene, const Box& box) {
     return StressField(box, scene.output.field_spacing.value_or(longest + scene.rods.diameter));
 }
 
-Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock, std::vector<Spring> springs,
-                    std::vector<LastForce> last_forces) {
+Simulation assemble(const Scene& scene, State state) {
     auto model = make_mobility(scene);
-    const auto mobility = model->at(rods, box);
+    const auto mobility = model->at(state.rods, state.box);
     SimulationSettings settings;
     settings.seed = scene.seed;
     settings.kT = thermal_energy(scene);
-    settings.time_step = time_step(scene, *mobility, rods);
+    settings.time_step = time_step(scene, *mobility, state.rods);
     settings.brownian_correction = scene.contact.brownian_correction;
     settings.range = scene.contact.range.value_or(0.0);
     if (scene.contact.model == ContactModel::wca) {
@@ -102,9 +101,9 @@ Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock, 
     settings.collision_moments = scene.output.stress_per_rod || scene.output.field_every > 0;
     settings.method = scene.solver.method;
     if (scene.contact.model == ContactModel::hard) {
-        settings.look_again = noise_is_weak(scene, settings.time_step);
+        settings.relinearise = noise_is_weak(scene, settings.time_step);
         settings.warm_start = scene.solver.warm_start == WarmStarts::automatic
-                                  ? settings.look_again
+                                  ? settings.relinearise
                                   : scene.solver.warm_start == WarmStarts::always;
     }
     const bool paper = scene.solver.residual == ResidualKind::paper;
@@ -115,12 +114,11 @@ Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock, 
                              : scene.solver.step_rule == StepRule::bb2 ? BarzilaiBorwein::bb2
                                                                        : BarzilaiBorwein::alternating;
     if (scene.growth.rate > 0.0) settings.growth = scene.growth;
-    check_springs(scene, rods, *mobility, springs, settings.time_step);
+    check_springs(scene, state.rods, *mobility, state.springs, settings.time_step);
     std::vector<std::unique_ptr<Motion>> motions;
     if (settings.kT > 0.0) motions.push_back(std::make_unique<BrownianMotion>(settings.kT));
     if (scene.motion.self_propulsion != 0.0) motions.push_back(std::make_unique<SelfPropulsion>(swimming_of(scene)));
-    return Simulation(box, std::move(rods), clock, std::move(model), std::move(motions), settings, std::move(springs),
-                      std::move(last_forces));
+    return Simulation(std::move(state), std::move(model), std::move(motions), settings);
 }
 
 }  // namespace jostle

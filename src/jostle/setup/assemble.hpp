@@ -19,10 +19,8 @@ double time_step(const Scene& scene, const MobilityOperator& mobility, const Rod
 /// The stress field that a scene asks for, without steps, if any. Throws InputError where its cells are too many.
 std::optional<StressField> make_field(const Scene& scene, const Box& box);
 
-/// A simulation of a scene that starts at, or goes on from, the given state. `springs`: of `scene.springs.file`, with
-/// their images. `last_forces`: of the state, Simulation::last_forces. Errors: InputError, also if that file is named
-/// and there are no springs.
-Simulation assemble(const Scene& scene, const Box& box, Rods rods, Clock clock, std::vector<Spring> springs = {},
-                    std::vector<LastForce> last_forces = {});
+/// A simulation of a scene that starts at, or goes on from, the given state, whose springs are those of
+/// `scene.springs.file`, with their images. Errors: InputError, also if that file is named and there are no springs.
+Simulation assemble(const Scene& scene, State state);
 
 }  // namespace jostle

@@ -29,7 +29,7 @@ Scene some_scene() {
 
 Simulation begun(const Scene& scene) {
     const Box box{box_edges(scene, rods_volume(scene)), scene.box.periodic};
-    return assemble(scene, box, make_start(scene, box), {});
+    return assemble(scene, {box, make_start(scene, box)});
 }
 
 }  // namespace

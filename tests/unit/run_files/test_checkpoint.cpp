@@ -25,16 +25,16 @@ namespace {
 Checkpoint two_rods(std::uint64_t step = 7) {
     Checkpoint checkpoint;
     checkpoint.scene = "seed = 1\n[rods]\ncount = 2\n";
-    checkpoint.step = step;
-    checkpoint.time = 0.1 * static_cast<double>(step);
-    checkpoint.box = {{1.0 / 3.0, 2.0, 1e30}, {true, false, true}};
-    checkpoint.rods.push_back(1, {0.1, -0.0, 1e29}, {0, 0, 1}, 5.0, 1.0);
-    checkpoint.rods.push_back(0, {1.0 / 7.0, 2, 3}, {0.6, 0.8, 0}, 0.0, 1.1);
-    checkpoint.rods.image[1] = {-1, 2, 2147483647};
-    checkpoint.rods.speed = {0.5, -2.0};
-    checkpoint.springs = {{1, 0, 2.5, -0.0, 1.0 / 3.0, 1e-300, {-1, 0, 7}}, {0, 1, 0.0, 0.1, 0.0, 5.0, {}}};
-    checkpoint.last_forces = {{0, 1, ContactFeature::end_of_j, true, 1.0 / 3.0},
-                              {1, 1, ContactFeature::nearest, false, 1e-300}};
+    checkpoint.state.clock.step = step;
+    checkpoint.state.clock.time = 0.1 * static_cast<double>(step);
+    checkpoint.state.box = {{1.0 / 3.0, 2.0, 1e30}, {true, false, true}};
+    checkpoint.state.rods.push_back(1, {0.1, -0.0, 1e29}, {0, 0, 1}, 5.0, 1.0);
+    checkpoint.state.rods.push_back(0, {1.0 / 7.0, 2, 3}, {0.6, 0.8, 0}, 0.0, 1.1);
+    checkpoint.state.rods.image[1] = {-1, 2, 2147483647};
+    checkpoint.state.rods.speed = {0.5, -2.0};
+    checkpoint.state.springs = {{1, 0, 2.5, -0.0, 1.0 / 3.0, 1e-300, {-1, 0, 7}}, {0, 1, 0.0, 0.1, 0.0, 5.0, {}}};
+    checkpoint.state.previous_forces = {{0, 1, ContactFeature::end_of_j, true, 1.0 / 3.0},
+                                        {1, 1, ContactFeature::nearest, false, 1e-300}};
     checkpoint.sums = {{"one", {1.5, -2.25, 1e-310}}, {"other.with.dots", {}}};
     checkpoint.files = {{"series.csv", {321, 0xfedcba9876543210u}},
                         {"trajectory.journal", {12345, 0xabcdef0123456789u}},
@@ -43,12 +43,14 @@ Checkpoint two_rods(std::uint64_t step = 7) {
 }
 
 bool same(const Checkpoint& a, const Checkpoint& b) {
-    return a.scene == b.scene && a.step == b.step && a.time == b.time && a.box.edges == b.box.edges &&
-           a.box.periodic == b.box.periodic && a.rods.centre == b.rods.centre && a.rods.axis == b.rods.axis &&
-           std::signbit(a.rods.centre[0].y) == std::signbit(b.rods.centre[0].y) && a.rods.length == b.rods.length &&
-           a.rods.diameter == b.rods.diameter && a.rods.id == b.rods.id && a.rods.image == b.rods.image &&
-           a.rods.speed == b.rods.speed && a.springs == b.springs && a.last_forces == b.last_forces &&
-           a.sums == b.sums && a.files == b.files;
+    return a.scene == b.scene && a.state.clock.step == b.state.clock.step && a.state.clock.time == b.state.clock.time &&
+           a.state.box.edges == b.state.box.edges && a.state.box.periodic == b.state.box.periodic &&
+           a.state.rods.centre == b.state.rods.centre && a.state.rods.axis == b.state.rods.axis &&
+           std::signbit(a.state.rods.centre[0].y) == std::signbit(b.state.rods.centre[0].y) &&
+           a.state.rods.length == b.state.rods.length && a.state.rods.diameter == b.state.rods.diameter &&
+           a.state.rods.id == b.state.rods.id && a.state.rods.image == b.state.rods.image &&
+           a.state.rods.speed == b.state.rods.speed && a.state.springs == b.state.springs &&
+           a.state.previous_forces == b.state.previous_forces && a.sums == b.sums && a.files == b.files;
 }
 
 }  // namespace
@@ -61,8 +63,8 @@ TEST_CASE("a checkpoint comes back to the last bit") {
     CHECK(same(latest_checkpoint(folder.path()).value(), two_rods()));
 
     write_checkpoint(folder.path(), two_rods(8));
-    CHECK(read_checkpoint(folder.file("checkpoint")).step == 8);
-    CHECK(read_checkpoint(folder.file("checkpoint.previous")).step == 7);
+    CHECK(read_checkpoint(folder.file("checkpoint")).state.clock.step == 8);
+    CHECK(read_checkpoint(folder.file("checkpoint.previous")).state.clock.step == 7);
     CHECK_FALSE(file_exists(folder.file("checkpoint.tmp")));
 }
 
@@ -138,7 +140,7 @@ TEST_CASE("a damaged checkpoint: the message tells whether the one before is sou
     CHECK(contains(message_of<InputError>([&] { latest_checkpoint(folder.path()); }),
                    previous + " (step 7), is sound: remove " + path));
     std::filesystem::rename(path, folder.file("kept"));
-    CHECK(latest_checkpoint(folder.path())->step == 7);
+    CHECK(latest_checkpoint(folder.path())->state.clock.step == 7);
     std::filesystem::rename(folder.file("kept"), path);
     put_byte(previous, 100, '~');
     CHECK(contains(message_of<InputError>([&] { latest_checkpoint(folder.path()); }), "is no better"));
@@ -160,9 +162,9 @@ TEST_CASE("every state that a kill can leave between two checkpoints resumes fro
             if (!content.empty()) put_content(name, content);
         }
         const auto found = latest_checkpoint(folder.path());
-        const std::uint64_t step = found ? found->step : 0;
+        const std::uint64_t step = found ? found->state.clock.step : 0;
         write_checkpoint(folder.path(), two_rods(step + 1));  // and the run can go on
-        CHECK(latest_checkpoint(folder.path())->step == step + 1);
+        CHECK(latest_checkpoint(folder.path())->state.clock.step == step + 1);
         return step;
     };
     CHECK(step_left("", "", one.substr(0, 50)) == 0);   // within the first write
@@ -197,7 +199,7 @@ TEST_CASE("kill -9 at random moments never loses a checkpoint that was written")
         while (::read(ends[0], &value, sizeof value) == sizeof value) told = value;
         ::close(ends[0]);
         const auto found = latest_checkpoint(folder.path());
-        const std::uint64_t now = found ? found->step : 0;
+        const std::uint64_t now = found ? found->state.clock.step : 0;
         // The last one may be on the disk before it was told; a smaller number would be a lost checkpoint.
         CHECK(now >= told);
         CHECK(now <= told + 1);
@@ -210,40 +212,40 @@ TEST_CASE("kill -9 at random moments never loses a checkpoint that was written")
 TEST_CASE("what no run has written is refused, though the checksum is right") {
     const double nan = std::nan("");
     const std::vector<std::pair<const char*, std::function<void(Checkpoint&)>>> forgeries = {
-        {"time = nan", [&](Checkpoint& c) { c.time = nan; }},
-        {"time = -1", [&](Checkpoint& c) { c.time = -1.0; }},
-        {"step = ", [&](Checkpoint& c) { c.step = ~std::uint64_t{0}; }},
-        {"edge of the box = nan", [&](Checkpoint& c) { c.box.edges.x = nan; }},
-        {"edge of the box = 1e+300", [&](Checkpoint& c) { c.box.edges.y = 1e300; }},
-        {"edge of the box = 0", [&](Checkpoint& c) { c.box.edges.z = 0.0; }},
-        {"centre in row 1 = nan", [&](Checkpoint& c) { c.rods.centre[1].y = nan; }},
-        {"centre in row 0 = 0.5", [&](Checkpoint& c) { c.rods.centre[0].x = 0.5; }},
-        {"centre in row 1 = -1", [&](Checkpoint& c) { c.rods.centre[1].x = -1.0; }},
-        {"centre in row 1 = 1e+300", [&](Checkpoint& c) { c.rods.centre[1].y = 1e300; }},
-        {"|axis|^2 in row 0 = 0", [&](Checkpoint& c) { c.rods.axis[0] = {}; }},
+        {"time = nan", [&](Checkpoint& c) { c.state.clock.time = nan; }},
+        {"time = -1", [&](Checkpoint& c) { c.state.clock.time = -1.0; }},
+        {"step = ", [&](Checkpoint& c) { c.state.clock.step = ~std::uint64_t{0}; }},
+        {"edge of the box = nan", [&](Checkpoint& c) { c.state.box.edges.x = nan; }},
+        {"edge of the box = 1e+300", [&](Checkpoint& c) { c.state.box.edges.y = 1e300; }},
+        {"edge of the box = 0", [&](Checkpoint& c) { c.state.box.edges.z = 0.0; }},
+        {"centre in row 1 = nan", [&](Checkpoint& c) { c.state.rods.centre[1].y = nan; }},
+        {"centre in row 0 = 0.5", [&](Checkpoint& c) { c.state.rods.centre[0].x = 0.5; }},
+        {"centre in row 1 = -1", [&](Checkpoint& c) { c.state.rods.centre[1].x = -1.0; }},
+        {"centre in row 1 = 1e+300", [&](Checkpoint& c) { c.state.rods.centre[1].y = 1e300; }},
+        {"|axis|^2 in row 0 = 0", [&](Checkpoint& c) { c.state.rods.axis[0] = {}; }},
         {"|axis|^2 in row 1 = 4",
          [&](Checkpoint& c) {
-             c.rods.axis[1] = {0, 2, 0};
+             c.state.rods.axis[1] = {0, 2, 0};
          }},
-        {"length in row 0 = -5", [&](Checkpoint& c) { c.rods.length[0] = -5.0; }},
-        {"length in row 1 = inf", [&](Checkpoint& c) { c.rods.length[1] = INFINITY; }},
-        {"diameter in row 1 = 0", [&](Checkpoint& c) { c.rods.diameter[1] = 0.0; }},
-        {"speed in row 0 = nan", [&](Checkpoint& c) { c.rods.speed[0] = nan; }},
+        {"length in row 0 = -5", [&](Checkpoint& c) { c.state.rods.length[0] = -5.0; }},
+        {"length in row 1 = inf", [&](Checkpoint& c) { c.state.rods.length[1] = INFINITY; }},
+        {"diameter in row 1 = 0", [&](Checkpoint& c) { c.state.rods.diameter[1] = 0.0; }},
+        {"speed in row 0 = nan", [&](Checkpoint& c) { c.state.rods.speed[0] = nan; }},
         {"an id of two rods = 1",
          [&](Checkpoint& c) {
-             c.rods.id = {1, 1};
+             c.state.rods.id = {1, 1};
          }},
         {"id of a rod = 2",
          [&](Checkpoint& c) {
-             c.rods.id = {0, 2};
+             c.state.rods.id = {0, 2};
          }},
         {"growth in row 1 = nan",
          [&](Checkpoint& c) {
-             c.rods.cycle = {{1, 2, 0, 0, 1}, {1, nan, 0, 0, 1}};
+             c.state.rods.cycle = {{1, 2, 0, 0, 1}, {1, nan, 0, 0, 1}};
          }},
-        {"rod of a spring = 2", [&](Checkpoint& c) { c.springs[1].rod_2 = 2; }},
-        {"stiffness of a spring = -1", [&](Checkpoint& c) { c.springs[0].stiffness = -1.0; }},
-        {"contact force = nan", [&](Checkpoint& c) { c.last_forces[1].gamma = nan; }},
+        {"rod of a spring = 2", [&](Checkpoint& c) { c.state.springs[1].rod_2 = 2; }},
+        {"stiffness of a spring = -1", [&](Checkpoint& c) { c.state.springs[0].stiffness = -1.0; }},
+        {"contact force = nan", [&](Checkpoint& c) { c.state.previous_forces[1].gamma = nan; }},
     };
     const TemporaryFolder folder;
     for (const auto& [problem, forge] : forgeries) {
@@ -256,10 +258,10 @@ TEST_CASE("what no run has written is refused, though the checksum is right") {
         CHECK(contains(message, std::string("the checkpoint holds what no run has written: ") + problem));
     }
     Checkpoint cells = two_rods();
-    cells.rods.cycle.resize(2);
-    cells.rods.id = {1ull << 52, 5};
+    cells.state.rods.cycle.resize(2);
+    cells.state.rods.id = {1ull << 52, 5};
     CHECK(impossible_content(cells) == "");  // where cells divide, ids have gaps
-    cells.rods.id[0] = 1ull << 53;
+    cells.state.rods.id[0] = 1ull << 53;
     CHECK(contains(impossible_content(cells), "id of a rod"));
 }
 
@@ -275,6 +277,6 @@ TEST_CASE("a full disk leaves the last checkpoint in place") {
         return 1;
     });
     CHECK(code == 0);
-    CHECK(latest_checkpoint(folder.path())->step == 1);
+    CHECK(latest_checkpoint(folder.path())->state.clock.step == 1);
     CHECK_FALSE(file_exists(folder.file("checkpoint.tmp")));
 }

@@ -29,7 +29,7 @@ Dense dense(std::uint64_t count, double length, double volume_fraction) {
 
 /// Mean and standard error, from ten blocks, of Z in the first steps of a run.
 std::pair<double, double> first_Z(const Dense& dense, const Rods& rods, int steps) {
-    Simulation simulation = assemble(dense.scene, dense.box, rods, {});
+    Simulation simulation = assemble(dense.scene, {dense.box, rods});
     double sum = 0.0, squares = 0.0;
     for (int block = 0; block < 10; ++block) {
         double Z = 1.0;

@@ -25,7 +25,7 @@ Simulation crowd(double unit) {
     scene.fluid.viscosity = 1.0 / (unit * unit);
     scene.time.rms_step = 0.05;
     const Box box{*scene.box.edges, {true, true, true}};
-    return assemble(scene, box, make_start(scene, box), {});
+    return assemble(scene, {box, make_start(scene, box)});
 }
 
 }  // namespace

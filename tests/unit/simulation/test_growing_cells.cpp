@@ -43,7 +43,7 @@ Rods one_cell() {
 }  // namespace
 
 TEST_CASE("an isolated cell doubles on schedule, and its line of daughters spreads without an overlap") {
-    Simulation simulation = assemble(still_cells(), open_space, one_cell(), {});
+    Simulation simulation = assemble(still_cells(), {open_space, one_cell()});
     for (int generation = 1; generation <= 4; ++generation) {
         for (int step = 0; step < 350; ++step) {
             CHECK(simulation.rods().size() == 1U << (generation - 1));
@@ -75,7 +75,7 @@ TEST_CASE("a dense colony from one cell: no collision is missed, and the same bi
     std::vector<Rods> ends;
     for (const int threads : {1, 3}) {
         parallel::set_thread_count(threads);
-        Simulation simulation = assemble(scene, open_space, one_cell(), {});
+        Simulation simulation = assemble(scene, {open_space, one_cell()});
         double largest = 0.0;
         while (simulation.rods().size() < 300) {
             const StepReport report = simulation.step();
@@ -112,10 +112,10 @@ TEST_CASE("a run taken up from its state between two divisions goes on bit for b
         scene.rods.count = 2;
         Rods rods = one_cell();
         rods.push_back(1, {500.3, 503.5, 500}, {0.6, 0.8, 0}, 2.5, test.other_diameter);
-        Simulation whole = assemble(scene, open_space, std::move(rods), {});
+        Simulation whole = assemble(scene, {open_space, std::move(rods)});
         for (int step = 0; step < 1111; ++step) whole.step();
-        CHECK(!whole.last_forces().empty());
-        Simulation again = assemble(scene, open_space, whole.rods(), whole.clock(), {}, whole.last_forces());
+        CHECK(!whole.state().previous_forces.empty());
+        Simulation again = assemble(scene, whole.state());
         int differing = 0;
         for (int step = 0; step < 400; ++step) {
             whole.step();
@@ -147,7 +147,7 @@ TEST_CASE("cells that press on each other grow by what the force leaves them, at
         Rods rods;
         for (std::uint64_t id = 0; id < 12; ++id)
             rods.push_back(id, {500.0 + 4.0 * static_cast<double>(id), 500, 500}, {1, 0, 0}, 3.0, 1.0);
-        Simulation simulation = assemble(scene, open_space, std::move(rods), {});
+        Simulation simulation = assemble(scene, {open_space, std::move(rods)});
         for (int step = 0; step < 200; ++step) REQUIRE(simulation.step().status == LcpStatus::converged);
         std::vector<double> compression(12, 0.0);
         const Contacts& contacts = simulation.contacts();
@@ -174,7 +174,7 @@ TEST_CASE("growth that cannot be is refused with the numbers") {
     const auto message = [](const Scene& bad) -> std::string {
         try {
             validate(bad);
-            assemble(bad, open_space, one_cell(), {});
+            assemble(bad, {open_space, one_cell()});
         } catch (const InputError& error) {
             return error.what();
         }

@@ -52,7 +52,7 @@ TEST_CASE("a run of which steps are interrupted and made again has the same bits
     const Box box{{9, 9, 9}, {true, true, true}};
     for (const Scene& scene : {crowd(SolverMethod::automatic), crowd(SolverMethod::bbpgd), colony()}) {
         const Rods start = make_start(scene, box, std::nullopt);
-        const auto begun = [&] { return assemble(scene, box, start, {first_step, 0.0}); };
+        const auto begun = [&] { return assemble(scene, {box, start, {first_step, 0.0}}); };
         Simulation undisturbed = begun(), disturbed = begun();
         int interruptions = 0;
         for (int step = 0; step < 30; ++step) {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "jostle/error/input_error.hpp"
+#include "jostle/motion/springs.hpp"
 #include "jostle/setup/assemble.hpp"
 #include "jostle/stress/rigid_body_stress.hpp"
 #include "jostle/stress/spherocylinder_moments.hpp"
@@ -29,7 +30,7 @@ Scene still_spheres() {
 
 std::string refusal_of(const Scene& scene, const Rods& rods, std::vector<Spring> springs) {
     try {
-        assemble(scene, {{10, 10, 10}, {true, true, true}}, rods, {}, std::move(springs));
+        assemble(scene, {{{10, 10, 10}, {true, true, true}}, rods, {}, std::move(springs)});
     } catch (const InputError& error) {
         return error.what();
     }
@@ -51,7 +52,7 @@ TEST_CASE("a stretched spring relaxes by the factor 1 - 2 k M dt a step, through
     std::vector<Spring> springs = {{0, 1, 0.0, 0.0, 1.5, 4.0, {}}};
     hold_nearest_images(springs, rods, box);
     CHECK(springs[0].image == Image{1, 0, 0});
-    Simulation simulation = assemble(scene, box, rods, {}, springs);
+    Simulation simulation = assemble(scene, {box, rods, {}, springs});
     const double factor = 1.0 - 2.0 * 4.0 * mobility_of_sphere * 0.01;
     double stretch = 1.5;
     for (int step = 0; step < 600; ++step) {
@@ -74,7 +75,7 @@ TEST_CASE("spheres that a spring pulls together stop at touching, and push back 
     rods.push_back(0, {5, 5, 5}, {1, 0, 0}, 0.0, 1.0);
     rods.push_back(1, {6.1, 5, 5}, {1, 0, 0}, 0.0, 1.0);
     const Box box{{10, 10, 10}, {true, true, true}};
-    Simulation simulation = assemble(still_spheres(), box, rods, {}, {{0, 1, 0.0, 0.0, 0.0, 5.0, {}}});
+    Simulation simulation = assemble(still_spheres(), {box, rods, {}, {{0, 1, 0.0, 0.0, 0.0, 5.0, {}}}});
     StepReport report;
     for (int step = 0; step < 100; ++step) report = simulation.step();
     CHECK(simulation.rods().centre[1].x - simulation.rods().centre[0].x == doctest::Approx(1.0).epsilon(1e-5));
@@ -101,9 +102,8 @@ TEST_CASE("off the centre a spring turns its rod: velocities and stress by hand"
 
     const auto model = make_mobility(scene);
     const auto mobility = model->at(rods, box);
-    const Springs held(springs);
     Velocities velocities;
-    mobility->apply(held.forces(rods, held.pulls(rods, box)), velocities);
+    mobility->apply(spring_forces(springs, spring_pulls(springs, rods, box), rods), velocities);
     CHECK(norm(velocities.linear[0] - Vec3{0, 0, 4.0 * mobility->of_rod(0).perpendicular}) < 1e-15);
     CHECK(norm(velocities.angular[0] - Vec3{0, -6.0 * mobility->of_rod(0).rotational, 0}) < 1e-15);
     CHECK(norm(velocities.linear[1] - Vec3{0, 0, -4.0 * mobility_of_sphere}) < 1e-15);
@@ -159,7 +159,7 @@ TEST_CASE("springs that no run can hold are refused") {
     growing.growth.rate = 0.1;
     growing.growth.division_length = 3.0;
     CHECK(refusal_of(growing, rods, {{0, 1, 0.0, 0.0, 0.0, 1.0, {}}}).find("cells divide") != std::string::npos);
-    Simulation unknown = assemble(still_spheres(), {}, rods, {}, {{0, 7, 0.0, 0.0, 0.0, 1.0, {}}});
+    Simulation unknown = assemble(still_spheres(), {{}, rods, {}, {{0, 7, 0.0, 0.0, 0.0, 1.0, {}}}});
     CHECK_THROWS_AS(unknown.step(), InputError);
     CHECK(refusal_of(still_spheres(), rods, {{0, 1, 0.0, 0.0, -1.0, 1.0, {}}}).find("rest_length") !=
           std::string::npos);
@@ -179,11 +179,10 @@ TEST_CASE("with springs, a simulation made from the state of another goes on bit
         rods.push_back(k, {at(k % 10), at(k / 10 % 10), 1.7 * at(k / 100)}, {0, 0, 1}, k / 100 < 6 ? 1.0 : 0.0, 1.0);
         if (k % 10 != 9) springs.push_back({k, k + 1, 0.0, 0.0, 1.2, 3.0, {}});
     }
-    Simulation whole = assemble(scene, box, rods, {}, springs);
+    Simulation whole = assemble(scene, {box, rods, {}, springs});
     for (int step = 0; step < 505; ++step) REQUIRE(whole.step().status == LcpStatus::converged);
     parallel::set_thread_count(2);
-    Simulation again =
-        assemble(scene, box, whole.rods(), whole.clock(), std::vector(whole.springs().begin(), whole.springs().end()));
+    Simulation again = assemble(scene, whole.state());
     for (int step = 505; step < 520; ++step) {  // rows change places at 512
         const StepReport a = whole.step(), b = again.step();
         CHECK(a.spring_virial.m == b.spring_virial.m);
@@ -205,7 +204,7 @@ TEST_CASE("a rod that turns round takes along the points that springs hold") {
     Rods rods;
     rods.push_back(0, {20, 20, 20}, {1, 0, 0}, 5.0, 1.0);
     rods.push_back(1, {20, 23, 20}, {1, 0, 0}, 5.0, 1.0);
-    Simulation whole = assemble(scene, box, rods, {}, {{0, 1, 2.5, 2.5, 3.0, 5.0, {}}});
+    Simulation whole = assemble(scene, {box, rods, {}, {{0, 1, 2.5, 2.5, 3.0, 5.0, {}}}});
     std::optional<Simulation> again;
     int turns = 0;
     for (int step = 0; step < 5000; ++step) {
@@ -214,12 +213,10 @@ TEST_CASE("a rod that turns round takes along the points that springs hold") {
         REQUIRE(std::fabs(trace(report.spring_virial)) < 1e-6);  // swimming stretches it by 5e-8 at most
         turns += whole.rods().axis[0].x * before < 0.0 ? 1 : 0;
         if (again) again->step();
-        if (turns == 3 && !again)
-            again.emplace(
-                assemble(scene, box, whole.rods(), whole.clock(), {whole.springs().begin(), whole.springs().end()}));
+        if (turns == 3 && !again) again.emplace(assemble(scene, whole.state()));
     }
     CHECK(turns > 3);
-    CHECK(std::fabs(whole.springs()[0].s_1) == 2.5);
+    CHECK(std::fabs(whole.state().springs[0].s_1) == 2.5);
     for (const std::size_t row : {0U, 1U}) {
         CHECK(std::fabs(std::fabs(whole.rods().axis[row].x) - 1.0) < 1e-12);
         CHECK(again->rods().axis[row] == whole.rods().axis[row]);

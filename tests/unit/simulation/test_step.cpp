@@ -39,7 +39,7 @@ const double pi = std::acos(-1.0);
 
 TEST_CASE("two spheres head-on: they stop at touching, and push with U_0/mobility") {
     const Scene scene = head_on();
-    Simulation simulation = assemble(scene, box, two_spheres(1.03), {});
+    Simulation simulation = assemble(scene, {box, two_spheres(1.03)});
     // First step: the gap of 0.03 closes by 2 U_0 dt = 0.04 unless forces hold the last 0.01 back.
     StepReport report = simulation.step();
     REQUIRE(report.status == LcpStatus::converged);
@@ -57,7 +57,7 @@ TEST_CASE("two spheres head-on: they stop at touching, and push with U_0/mobilit
 TEST_CASE("spheres that swim apart feel nothing") {
     Scene scene = head_on();
     scene.motion.self_propulsion = -2.0;
-    Simulation simulation = assemble(scene, box, two_spheres(1.0), {});
+    Simulation simulation = assemble(scene, {box, two_spheres(1.0)});
     const StepReport report = simulation.step();
     CHECK(report.active_contacts == 0);
     CHECK(norm(report.collision_virial) == 0.0);
@@ -83,7 +83,7 @@ TEST_CASE("collisions beyond the first reach are found: a sphere flung through a
     SimulationSettings settings;
     settings.time_step = 1.0;
     settings.lcp.tolerance = 1e-9;
-    Simulation simulation(box, rods, {}, make_mobility(scene), std::move(motions), settings);
+    Simulation simulation({box, rods}, make_mobility(scene), std::move(motions), settings);
     const StepReport report = simulation.step();
     CHECK(report.status == LcpStatus::converged);
     CHECK(report.solves > 1);
@@ -149,8 +149,8 @@ TEST_CASE("forces of motions are added up, and M is applied once to the sum; spr
         motions.push_back(std::make_unique<SelfPropulsion>(0.5));
         for (int k = 0; pushed && k < 2; ++k)
             motions.push_back(std::make_unique<ConstantForce>(Vec3{0, 1, 0}, Vec3{4, 0, 0}));
-        Simulation simulation(box, rods, {}, std::make_unique<CountingMobility>(applied), std::move(motions), settings,
-                              std::move(springs));
+        Simulation simulation({box, rods, {}, std::move(springs)}, std::make_unique<CountingMobility>(applied),
+                              std::move(motions), settings);
         REQUIRE(simulation.step().status == LcpStatus::converged);
         return simulation.rods();
     };
@@ -190,7 +190,7 @@ TEST_CASE("no pair overlaps after any step, against brute force: rods and sphere
             scene.time.rms_step = 0.03;
             scene.contact.brownian_correction = compliant;
             const Box small{edges, {true, true, true}};
-            Simulation simulation = assemble(scene, small, make_start(scene, small), {});
+            Simulation simulation = assemble(scene, {small, make_start(scene, small)});
             for (int step = 0; step < 40; ++step) {
                 const StepReport report = simulation.step();
                 REQUIRE(report.status == LcpStatus::converged);
@@ -206,7 +206,7 @@ TEST_CASE("no pair overlaps after any step, against brute force: rods and sphere
 TEST_CASE("a failed step leaves rods and clock as they were") {
     Scene scene = head_on();
     scene.solver.max_iterations = 1;
-    Simulation simulation = assemble(scene, box, two_spheres(1.0), {});
+    Simulation simulation = assemble(scene, {box, two_spheres(1.0)});
     const StepReport report = simulation.step();
     CHECK(report.status == LcpStatus::iteration_limit);
     CHECK(simulation.clock().step == 0);
@@ -219,14 +219,14 @@ TEST_CASE("a simulation made from the state of another goes on bit for bit, acro
     scene.rods.count = 40;
     scene.time.rms_step = 0.03;
     const Box small{{7, 7, 7}, {true, true, true}};
-    Simulation whole = assemble(scene, small, make_start(scene, small), {});
+    Simulation whole = assemble(scene, {small, make_start(scene, small)});
     for (int step = 0; step < 300; ++step) REQUIRE(whole.step().status == LcpStatus::converged);
-    Simulation second = assemble(scene, small, whole.rods(), whole.clock());
+    Simulation second = assemble(scene, whole.state());
     for (int step = 300; step < 512; ++step) {
         whole.step();
         second.step();
     }
-    Simulation third = assemble(scene, small, second.rods(), second.clock());  // just before rows change
+    Simulation third = assemble(scene, second.state());  // just before rows change
     const std::vector<std::uint64_t> ids_before = third.rods().id;
     for (int step = 512; step < 530; ++step) {
         const StepReport a = whole.step(), b = second.step(), c = third.step();
@@ -245,11 +245,11 @@ TEST_CASE("short steps: which pairs are contacts does not depend on when neighbo
     scene.rods.count = 40;
     scene.time.rms_step = 0.0008;
     const Box small{{7, 7, 7}, {true, true, true}};
-    Simulation whole = assemble(scene, small, make_start(scene, small), {});
+    Simulation whole = assemble(scene, {small, make_start(scene, small)});
     int differing = 0;
     for (int part = 0; part < 20; ++part) {
         for (int step = 0; step < 37; ++step) whole.step();
-        Simulation again = assemble(scene, small, whole.rods(), whole.clock());
+        Simulation again = assemble(scene, whole.state());
         whole.step();
         again.step();
         differing += whole.contacts().size() != again.contacts().size() ? 1 : 0;

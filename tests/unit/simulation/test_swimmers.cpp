@@ -60,7 +60,7 @@ TEST_CASE("a rod that is turned far in one step does not end up inside another")
     rods.push_back(1, {8.2 + 2.0 * cosine, 10, 11 + 2.0 * sine}, {cosine, 0, sine}, 4.0, 1.0);
     rods.push_back(2, {11.5, 10, 14.3}, {0, 0, -1}, 2.0, 1.0);
     rods.speed = {0.0, 0.0, 2.0};
-    Simulation simulation = assemble(scene, {{20, 20, 20}, {true, true, true}}, rods, {});
+    Simulation simulation = assemble(scene, {{{20, 20, 20}, {true, true, true}}, rods});
     const StepReport report = simulation.step();
     CHECK(report.status == LcpStatus::converged);
     CHECK(report.solves > 1);  // without another look: one solution, and an overlap of 1 D
@@ -81,7 +81,7 @@ TEST_CASE("two rods head-on: they stop at touching, and push with U_0/mu_paralle
     rods.push_back(0, {2, 5, 5}, {1, 0, 0}, 3.0, 1.0);
     rods.push_back(1, {6.03, 5, 5}, {-1, 0, 0}, 3.0, 1.0);
     const Box wide{{20, 20, 20}, {true, true, true}};
-    Simulation simulation = assemble(scene, wide, rods, {});
+    Simulation simulation = assemble(scene, {wide, rods});
     for (int step = 0; step < 3; ++step) REQUIRE(simulation.step().status == LcpStatus::converged);
     const StepReport report = simulation.step();
     const double force = 2.0 / simulation.mobility().at(simulation.rods(), simulation.box())->of_rod(0).parallel;
@@ -99,7 +99,7 @@ TEST_CASE("two rods head-on: they stop at touching, and push with U_0/mu_paralle
 
 TEST_CASE("rods that tumble and turn round do not overlap, against brute force") {
     const Scene scene = crowd();
-    Simulation simulation = assemble(scene, box, make_start(scene, box), {});
+    Simulation simulation = assemble(scene, {box, make_start(scene, box)});
     double largest = 0.0;
     for (int step = 0; step < 400; ++step) {
         REQUIRE(simulation.step().status == LcpStatus::converged);
@@ -113,10 +113,10 @@ TEST_CASE("rods that tumble and turn round do not overlap, against brute force")
 
 TEST_CASE("a simulation made anew in every step makes the same step: axes that flip fool no neighbour list") {
     const Scene scene = crowd();
-    Simulation whole = assemble(scene, box, make_start(scene, box), {});
+    Simulation whole = assemble(scene, {box, make_start(scene, box)});
     std::size_t flips = 0, contacts = 0;
     for (int step = 0; step < 200; ++step) {
-        Simulation anew = assemble(scene, box, whole.rods(), whole.clock());
+        Simulation anew = assemble(scene, whole.state());
         const StepReport a = whole.step(), b = anew.step();
         REQUIRE(a.status == LcpStatus::converged);
         CHECK(a.collision_virial.m == b.collision_virial.m);

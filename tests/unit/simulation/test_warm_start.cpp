@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "jostle/contact_problem/warm_start.hpp"
+#include "jostle/contact_problem/previous_forces.hpp"
 #include "jostle/rods/space_filling_order.hpp"
 #include "jostle/setup/assemble.hpp"
 
@@ -56,15 +56,14 @@ Rods one_cell() {
 }  // namespace
 
 TEST_CASE("a contact begins with the force of the same feature of the same rods, others with none") {
-    WarmStart warm_start;
     Contacts contacts = three_contacts();
-    CHECK(warm_start.guess(contacts, ids).empty());
-    warm_start.keep(contacts, std::vector{1.5, 0.0, 2.5}, ids);
-    CHECK(warm_start.forces().size() == 2);  // forces of 0 need not be known
+    CHECK(starting_forces(contacts, ids, {}).empty());
+    const auto previous = previous_forces(contacts, std::vector{1.5, 0.0, 2.5}, ids);
+    CHECK(previous.size() == 2);  // forces of 0 need not be known
 
     add(contacts, 1, 3, ContactFeature::nearest);
     add(contacts, 0, 2, ContactFeature::end_of_i);
-    CHECK(warm_start.guess(contacts, ids) == std::vector{1.5, 0.0, 2.5, 0.0, 0.0});
+    CHECK(starting_forces(contacts, ids, previous) == std::vector{1.5, 0.0, 2.5, 0.0, 0.0});
 }
 
 TEST_CASE("each end of a rod has its own force") {
@@ -73,20 +72,19 @@ TEST_CASE("each end of a rod has its own force") {
         add(contacts, 0, 1, ContactFeature::end_of_i);
         contacts.contact.back().arm_i = arm;
     }
-    WarmStart warm_start;
-    warm_start.keep(contacts, std::vector{1.5, 2.5}, ids);
-    CHECK(warm_start.guess(contacts, ids) == std::vector{1.5, 2.5});
+    const auto previous = previous_forces(contacts, std::vector{1.5, 2.5}, ids);
+    CHECK(starting_forces(contacts, ids, previous) == std::vector{1.5, 2.5});
 }
 
 TEST_CASE("forces follow their rods to other rows: they know them by ids") {
-    WarmStart warm_start;
-    warm_start.keep(three_contacts(), std::vector{1.5, 3.5, 2.5}, ids);
+    State state;
+    state.previous_forces = previous_forces(three_contacts(), std::vector{1.5, 3.5, 2.5}, ids);
     Contacts contacts;
     add(contacts, 3, 0, ContactFeature::end_of_j);  // rows of the ids 4 and 7
-    CHECK(warm_start.guess(contacts, std::vector<std::uint64_t>{7, 0, 0, 4}) == std::vector{2.5});
-    const std::vector<LastForce> forces = warm_start.forces();
+    CHECK(starting_forces(contacts, std::vector<std::uint64_t>{7, 0, 0, 4}, state.previous_forces) == std::vector{2.5});
+    const std::vector<PreviousForce> forces = in_order_of_ids(state).previous_forces;
     CHECK(std::is_sorted(forces.begin(), forces.end(), [](const auto& a, const auto& b) { return a.i < b.i; }));
-    CHECK(WarmStart(forces).guess(three_contacts(), ids) == std::vector{1.5, 3.5, 2.5});
+    CHECK(starting_forces(three_contacts(), ids, forces) == std::vector{1.5, 3.5, 2.5});
 }
 
 TEST_CASE("of a pair that touched in two images, the larger force counts, whichever comes first") {
@@ -95,22 +93,21 @@ TEST_CASE("of a pair that touched in two images, the larger force counts, whiche
     add(contacts, 0, 1, ContactFeature::nearest);
     contacts.image[1] = {1, 0, 0};
     for (const auto& gamma : {std::vector{1.0, 2.0}, std::vector{2.0, 1.0}}) {
-        WarmStart warm_start;
-        warm_start.keep(contacts, gamma, ids);
-        CHECK(warm_start.guess(contacts, ids) == std::vector{2.0, 2.0});
+        const auto previous = previous_forces(contacts, gamma, ids);
+        CHECK(starting_forces(contacts, ids, previous) == std::vector{2.0, 2.0});
     }
 }
 
 TEST_CASE("warm and cold starts find the same velocities of a dense colony, the warm one in fewer sweeps") {
-    Simulation warm = assemble(colony(WarmStarts::automatic), open_space, one_cell(), {});
+    Simulation warm = assemble(colony(WarmStarts::automatic), {open_space, one_cell()});
     CHECK(warm.settings().warm_start);
     while (warm.rods().size() < 300) warm.step();
     std::uint64_t warm_sweeps = 0, cold_sweeps = 0;
     for (int step = 0; step < 20; ++step) {
-        Simulation cold = assemble(colony(WarmStarts::never), open_space, warm.rods(), warm.clock());
+        Simulation cold = assemble(colony(WarmStarts::never), {open_space, warm.rods(), warm.clock()});
         cold_sweeps += cold.step().iterations;
         warm_sweeps += warm.step().iterations;
-        CHECK(cold.last_forces().empty());
+        CHECK(cold.state().previous_forces.empty());
         const Rods a = in_order_of_ids(warm.rods()), b = in_order_of_ids(cold.rods());
         REQUIRE(a.id == b.id);
         double farthest = 0.0;
@@ -123,7 +120,7 @@ TEST_CASE("warm and cold starts find the same velocities of a dense colony, the 
 
 TEST_CASE("auto begins warm without noise, or where growth is stronger") {
     Scene scene = colony(WarmStarts::automatic);
-    const auto is_warm = [&] { return assemble(scene, open_space, one_cell(), {}).settings().warm_start; };
+    const auto is_warm = [&] { return assemble(scene, {open_space, one_cell()}).settings().warm_start; };
     CHECK(is_warm());
     scene.fluid.kT = 1.0;
     CHECK(!is_warm());

@@ -1,4 +1,4 @@
-#include "jostle/contact_problem/warm_start.hpp"
+#include "jostle/contact_problem/previous_forces.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -12,7 +12,7 @@ namespace jostle {
 
 namespace {
 
-LastForce force_of(const Contacts& contacts, std::size_t l, std::span<const std::uint64_t> ids, double gamma) {
+PreviousForce force_of(const Contacts& contacts, std::size_t l, std::span<const std::uint64_t> ids, double gamma) {
     const Contact& contact = contacts.contact[l];
     const ContactFeature feature = contacts.feature[l];
     const bool upper = (feature == ContactFeature::end_of_i && contact.arm_i > 0.0) ||
@@ -20,14 +20,10 @@ LastForce force_of(const Contacts& contacts, std::size_t l, std::span<const std:
     return {ids[contact.i], ids[contact.j], feature, upper, gamma};
 }
 
-auto key_of(const LastForce& force) {
-    return std::tuple(force.i, force.j, force.feature, force.upper);
-}
-
 /// Forces by rods and feature: open addressing, half full at most.
 class ForceTable {
 public:
-    explicit ForceTable(std::span<const LastForce> forces)
+    explicit ForceTable(std::span<const PreviousForce> forces)
         : forces_(forces), slot_(std::bit_ceil(2 * forces.size() + 1), empty) {
         for (std::uint32_t k = 0; k < forces.size(); ++k) {
             std::uint32_t& slot = slot_[slot_of(forces[k])];
@@ -35,7 +31,7 @@ public:
         }
     }
 
-    double gamma_of(const LastForce& wanted) const {
+    double gamma_of(const PreviousForce& wanted) const {
         const std::uint32_t found = slot_[slot_of(wanted)];
         return found == empty ? 0.0 : forces_[found].gamma;
     }
@@ -44,7 +40,7 @@ private:
     static constexpr std::uint32_t empty = 0xFFFFFFFF;
 
     /// Where a force of this key is, or would be.
-    std::size_t slot_of(const LastForce& wanted) const {
+    std::size_t slot_of(const PreviousForce& wanted) const {
         const auto feature = static_cast<std::uint64_t>(wanted.feature);
         std::size_t slot = mixed_bits(mixed_bits(wanted.i) + wanted.j + feature) & (slot_.size() - 1);
         while (slot_[slot] != empty && key_of(forces_[slot_[slot]]) != key_of(wanted))
@@ -52,33 +48,28 @@ private:
         return slot;
     }
 
-    std::span<const LastForce> forces_;
+    std::span<const PreviousForce> forces_;
     std::vector<std::uint32_t> slot_;
 };
 
 }  // namespace
 
-void WarmStart::keep(const Contacts& contacts, std::span<const double> gamma, std::span<const std::uint64_t> ids) {
-    forces_.clear();
+std::vector<PreviousForce> previous_forces(const Contacts& contacts, std::span<const double> gamma,
+                                           std::span<const std::uint64_t> ids) {
+    std::vector<PreviousForce> forces;
     for (std::size_t l = 0; l < gamma.size(); ++l)
         if (gamma[l] > 0.0 && contacts.feature[l] != ContactFeature::relinearised)  // no step begins with those
-            forces_.push_back(force_of(contacts, l, ids, gamma[l]));
+            forces.push_back(force_of(contacts, l, ids, gamma[l]));
+    return forces;
 }
 
-std::vector<double> WarmStart::guess(const Contacts& contacts, std::span<const std::uint64_t> ids) const {
-    if (forces_.empty()) return {};
-    const ForceTable table(forces_);
+std::vector<double> starting_forces(const Contacts& contacts, std::span<const std::uint64_t> ids,
+                                    std::span<const PreviousForce> previous) {
+    if (previous.empty()) return {};
+    const ForceTable table(previous);
     std::vector<double> gamma(contacts.size());
     parallel_for(gamma.size(), [&](std::size_t l) { gamma[l] = table.gamma_of(force_of(contacts, l, ids, 0.0)); });
     return gamma;
-}
-
-std::vector<LastForce> WarmStart::forces() const {
-    std::vector<LastForce> sorted = forces_;
-    std::sort(sorted.begin(), sorted.end(), [](const LastForce& a, const LastForce& b) {
-        return std::tuple(key_of(a), a.gamma) < std::tuple(key_of(b), b.gamma);
-    });
-    return sorted;
 }
 
 }  // namespace jostle

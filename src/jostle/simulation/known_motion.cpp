@@ -1,0 +1,54 @@
+#include "jostle/simulation/known_motion.hpp"
+
+#include "jostle/math/rotation.hpp"
+#include "jostle/parallel/parallel_for.hpp"
+
+namespace jostle {
+
+namespace {
+
+void add(const Velocities& part, Velocities& sum) {
+    parallel_for(sum.size(), [&](std::size_t i) {
+        sum.linear[i] += part.linear[i];
+        sum.angular[i] += part.angular[i];
+    });
+}
+
+/// M is applied once to the sum of the motions' forces; and to those of springs, whose velocities their stress needs
+/// (theory 2.7).
+void add_velocities_of_forces(const State& state, std::span<const std::unique_ptr<Motion>> motions,
+                              const MobilityOperator& mobility, const StepContext& context, KnownMotion& known) {
+    if (const auto forces = sum_of_forces(motions, state.rods, context)) {
+        Velocities velocities;
+        mobility.apply(*forces, velocities);
+        add(velocities, known.velocity);
+    }
+    if (state.springs.empty()) return;
+    known.pulls = spring_pulls(state.springs, state.rods, state.box);
+    mobility.apply(spring_forces(state.springs, known.pulls, state.rods), known.by_springs);
+    add(known.by_springs, known.velocity);
+}
+
+}  // namespace
+
+void find_known_motion(const State& state, std::span<const std::unique_ptr<Motion>> motions,
+                       const MobilityOperator& mobility, const StepContext& context, KnownMotion& known) {
+    const Rods& rods = state.rods;
+    known.velocity.resize(rods.size());
+    auto& [linear, angular] = known.velocity;
+    parallel_for(rods.size(), [&](std::size_t i) { linear[i] = angular[i] = Vec3{}; });
+    for (const auto& motion : motions) motion->add_velocities(known.velocity, rods, mobility, context);
+    add_velocities_of_forces(state, motions, mobility, context, known);
+
+    known.end.resize(rods.size());
+    known.displacement.resize(rods.size());
+    auto& [centre, axis] = known.end;
+    parallel_for(rods.size(), [&](std::size_t i) {
+        centre[i] = rods.centre[i] + context.time_step * linear[i];
+        axis[i] = rotated(rods.axis[i], context.time_step * angular[i]);
+        known.displacement[i] =
+            farthest_displacement(centre[i] - rods.centre[i], axis[i] - rods.axis[i], 0.5 * rods.length[i]);
+    });
+}
+
+}  // namespace jostle

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "jostle/motion/motion.hpp"
+#include "jostle/rods/configuration.hpp"
+#include "jostle/state/state.hpp"
+
+namespace jostle {
+
+/// What is known of a step before contacts are resolved (theory, section 2.1).
+struct KnownMotion {
+    Velocities velocity;               ///< (N) U_known, the sum of all motions
+    Configuration end;                 ///< (N) where it would take the rods
+    std::vector<double> displacement;  ///< (N) by it, of any point of the rod, at most
+    std::vector<SpringPull> pulls;     ///< of the springs
+    Velocities by_springs;             ///< (N) their part of U_known; (0) without springs
+};
+
+/// Makes `known` that of this state.
+void find_known_motion(const State& state, std::span<const std::unique_ptr<Motion>> motions,
+                       const MobilityOperator& mobility, const StepContext& context, KnownMotion& known);
+
+}  // namespace jostle

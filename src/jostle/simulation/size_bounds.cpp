@@ -1,0 +1,87 @@
+#include "jostle/simulation/size_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "jostle/contact/wca_forces.hpp"
+#include "jostle/parallel/parallel_for.hpp"
+
+namespace jostle {
+
+namespace {
+
+// Lengths in mean diameters, chosen by the time of a step: they change speed, and results within the tolerance.
+
+/// A pair whose gap after the known motion is wider than touching by this much is inactive.
+constexpr double activation_margin_per_diameter = 0.02;
+/// How far rods go before the neighbour list is built again: this at the default step, less at shorter ones (the
+/// shorter the step, the less often lists are built).
+constexpr double skin_per_diameter = 0.5, skin_per_length = 0.13, displacement_at_default_step = 0.07;
+/// Up to so many times as far at longer steps, where fewer than a crowd fill a volume of (L + D)^3: it is rods more
+/// than pairs that a list costs time for then.
+constexpr double crowd = 3.0, max_skin_when_dilute = 2.0;
+/// How far forces may displace rods before all their neighbours are looked at: at most so far, and so many mean
+/// Brownian displacements, for these bring rods together. Without noise displacements add up through crowds.
+constexpr double max_displacement_limit = 0.2, limit_per_displacement = 3.0;
+
+double mean_of(const std::vector<double>& values) {
+    if (values.empty()) return 1.0;
+    return parallel_sum<double>(values.size(), [&](std::size_t i) { return values[i]; }) /
+           static_cast<double>(values.size());
+}
+
+}  // namespace
+
+void find_size_bounds(const Rods& rods, const MobilityOperator& mobility, const SimulationSettings& settings,
+                      SizeBounds& sizes) {
+    sizes.mean_diameter = mean_of(rods.diameter);
+    sizes.mean_length = mean_of(rods.length);
+    sizes.max_diameter = parallel_max(rods.size(), 0.0, [&](std::size_t i) { return rods.diameter[i]; });
+    sizes.shift_part.assign(rods.size(), 0.0);
+    sizes.own_mobility.clear();
+    if (!settings.corrects_brownian_motion()) return;
+    sizes.own_mobility.resize(rods.size());
+    parallel_for(rods.size(), [&](std::size_t i) {
+        const RodMobility rod = sizes.own_mobility[i] = mobility.of_rod(i);
+        const double half = 0.5 * rods.length[i];
+        const double largest = std::max(rod.parallel, rod.perpendicular) + half * half * rod.rotational;
+        sizes.shift_part[i] = brownian_shift(settings.kT, settings.time_step, largest);
+    });
+}
+
+SearchRanges search_ranges(const State& state, const KnownMotion& known, const SizeBounds& sizes,
+                           const SimulationSettings& settings) {
+    const double mean_diameter = sizes.mean_diameter, mean_length = sizes.mean_length;
+    SearchRanges ranges = {.displacement_limit = max_displacement_limit * mean_diameter,
+                           .skin = skin_per_diameter * mean_diameter + skin_per_length * mean_length,
+                           .activation_margin = activation_margin_per_diameter * mean_diameter,
+                           .range = settings.rods_are_soft() ? (wca_range - 1.0) * sizes.max_diameter : settings.range};
+    if (settings.kT == 0.0) return ranges;
+    const double displacement = mean_of(known.displacement);
+    // Not below half the margin: the neighbour list must hold every pair that may come within it.
+    ranges.displacement_limit =
+        std::clamp(limit_per_displacement * displacement, 0.5 * ranges.activation_margin, ranges.displacement_limit);
+    double max_skin = 1.0;
+    if (state.box.is_periodic()) {  // in an open one the volume does not tell how near rods are to each other
+        const double near =
+            static_cast<double>(state.rods.size()) * std::pow(mean_length + mean_diameter, 3.0) / state.box.volume();
+        max_skin = std::clamp(std::sqrt(crowd / near), 1.0, max_skin_when_dilute);
+    }
+    ranges.skin *=
+        std::min(max_skin, std::pow(displacement / (displacement_at_default_step * mean_diameter), 2.0 / 3.0));
+    return ranges;
+}
+
+StepGeometry step_geometry(const State& state, const KnownMotion& known, const SizeBounds& sizes,
+                           const SimulationSettings& settings) {
+    const GapShift shift = {sizes.shift_part, state.rods.axis, sizes.own_mobility, settings.kT, settings.time_step};
+    return {state.rods,
+            state.box,
+            known.end,
+            known.displacement,
+            shift,
+            search_ranges(state, known, sizes, settings),
+            settings.rods_are_soft()};
+}
+
+}  // namespace jostle

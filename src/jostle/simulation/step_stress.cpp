@@ -1,0 +1,77 @@
+#include "jostle/simulation/step_stress.hpp"
+
+#include "jostle/math/rotation.hpp"
+#include "jostle/parallel/parallel_for.hpp"
+#include "jostle/stress/spring_stress.hpp"
+
+namespace jostle {
+
+namespace {
+
+/// Axes after the known motion and one half of what contact forces (and springs) turn them, of the rods in contact.
+void find_half_way_axes(const ResolvedStep& step, double time_step, std::vector<Vec3>& half_way_axis) {
+    half_way_axis.resize(step.state.rods.size());
+    parallel_for(step.solution.rods.size(), [&](std::size_t k) {
+        const std::uint32_t row = step.solution.rods[k];
+        const Vec3& axis = step.state.rods.axis[row];
+        const Vec3 collision = cross(axis, step.solution.velocities[k].turning);
+        const Vec3 by_springs = step.state.springs.empty() ? Vec3{} : step.known.by_springs.angular[row];
+        const Vec3 turned = step.known.velocity.angular[row] - 0.5 * by_springs;
+        half_way_axis[row] = rotated(axis, time_step * (turned + 0.5 * collision));
+    });
+}
+
+/// Theory 1: the sum over contacts of (r_j - r_i) F, and over rods of the geometric part of the net torque. With the
+/// time-step correction: of rods half way through their collisions (theory, eq. 3.7).
+void measure_collision_stress(const ResolvedStep& step, const SimulationSettings& settings, std::span<const Vec3> axis,
+                              StepReport& report, CollisionMoments& moments) {
+    const Rods& rods = step.state.rods;
+    const std::vector<double>& gamma = step.solution.gamma;
+    const auto distance = settings.brownian_correction ? ContactDistance::touching : ContactDistance::at_start;
+    std::vector<Vec3> torque(step.solution.rods.size());
+    parallel_for(torque.size(),
+                 [&](std::size_t k) { torque[k] = cross(axis[step.solution.rods[k]], step.solution.forces[k].lever); });
+    const RodTorques torques = {step.solution.rods, torque};
+    report.collision_virial = sum_of_pair_stresses(step.contacts, gamma, rods, axis, torques, distance);
+    if (settings.collision_moments)
+        moments = collision_moments(step.contacts, gamma, rods, step.state.box, axis, torques, distance);
+    if (!settings.stress_conventions) return;
+    report.centre_of_mass_virial = centre_of_mass_virial(step.contacts, gamma, rods, axis, distance);
+    report.centre_line_virial = centre_line_virial(step.contacts, gamma, rods, distance);
+}
+
+/// Theory 1, eq. (1.16): the forces of springs as the step began, with moments half way through what springs and
+/// contacts do in it (eq. 1.17).
+void measure_spring_stress(const ResolvedStep& step, double time_step, StepReport& report) {
+    const Rods& rods = step.state.rods;
+    Velocities by_forces = step.known.by_springs;
+    parallel_for(step.solution.rods.size(), [&](std::size_t k) {
+        const std::uint32_t row = step.solution.rods[k];
+        by_forces.linear[row] += step.solution.velocities[k].centre;
+        by_forces.angular[row] += cross(rods.axis[row], step.solution.velocities[k].turning);
+    });
+    Configuration half_way;
+    half_way.resize(rods.size());
+    const double half_step = 0.5 * time_step;
+    parallel_for(rods.size(), [&](std::size_t i) {
+        half_way.centre[i] = rods.centre[i] + half_step * by_forces.linear[i];
+        half_way.axis[i] = rotated(rods.axis[i], half_step * by_forces.angular[i]);
+    });
+    report.spring_virial =
+        sum_of_spring_stresses(step.state.springs, step.known.pulls, rods, half_way.centre, half_way.axis);
+}
+
+}  // namespace
+
+void measure_stress(const ResolvedStep& step, const SimulationSettings& settings, std::vector<Vec3>& half_way_axis,
+                    StepReport& report, CollisionMoments& moments) {
+    if (!step.state.springs.empty()) measure_spring_stress(step, settings.time_step, report);
+    if (settings.corrects_brownian_motion()) find_half_way_axes(step, settings.time_step, half_way_axis);
+    const std::span<const Vec3> axis = settings.corrects_brownian_motion() ? half_way_axis : step.state.rods.axis;
+    measure_collision_stress(step, settings, axis, report, moments);
+    const std::vector<double>& gamma = step.solution.gamma;
+    report.active_contacts =
+        parallel_sum<std::size_t>(gamma.size(), [&](std::size_t l) { return gamma[l] > 0.0 ? std::size_t{1} : 0; });
+}
+
+}  // namespace jostle

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "jostle/contact/previous_force.hpp"
+#include "jostle/rods/box.hpp"
+#include "jostle/rods/clock.hpp"
+#include "jostle/rods/rods.hpp"
+#include "jostle/rods/spring.hpp"
+
+namespace jostle {
+
+/// All that the next step depends on, beside the scene: a checkpoint is this and the scene.
+struct State {
+    Box box;
+    Rods rods;
+    Clock clock = {};
+    std::vector<Spring> springs = {};  ///< between the rods, by ids
+    std::vector<PreviousForce> previous_forces =
+        {};  ///< by ids; empty unless steps begin from those of the step before
+};
+
+/// The same state, its rods in the order of ids, its forces in that of (i, j, feature, upper, gamma).
+State in_order_of_ids(const State& state);
+
+}  // namespace jostle
