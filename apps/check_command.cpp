@@ -196,7 +196,7 @@ PopulationGrowth population_growth(const Scene& scene, double time) {
     return {std::exp(exponent), exponent == 0.0 ? 1.0 : std::expm1(exponent) / exponent};
 }
 
-constexpr double most_rods = 4e9;  ///< rows have 32 bits
+constexpr double max_rods = 4e9;  ///< rows have 32 bits
 
 void print_cost(const Scene& scene, const Population& population, const Box& box, double dt) {
     const double phi = population.volume / box.volume();
@@ -210,7 +210,7 @@ void print_cost(const Scene& scene, const Population& population, const Box& box
     const bool colony = scene.growth.rate > 0.0 && !box.is_periodic();  // as dense as cells lie, whatever the box
     const double densest = colony ? crowded : std::max(phi, std::min(filled, crowded));
     if (scene.growth.rate > 0.0) {
-        const bool too_many = !(count <= most_rods);
+        const bool too_many = !(count <= max_rods);
         print("N in the end, about",
               too_many ? "more than any run can hold: end it earlier" : fmt::format("{:.3g}", count));
         if (too_many) return;

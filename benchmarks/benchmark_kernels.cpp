@@ -8,7 +8,7 @@
 #include "jostle/contact/find_contacts.hpp"
 #include "jostle/contact/segment_distance.hpp"
 #include "jostle/contact/time_step_correction.hpp"
-#include "jostle/contact_problem/sweeper.hpp"
+#include "jostle/contact_problem/block_gauss_seidel.hpp"
 #include "jostle/math/random.hpp"
 #include "jostle/motion/brownian_motion.hpp"
 #include "jostle/parallel/parallel_for.hpp"
@@ -108,9 +108,9 @@ void memory(benchmark::State& state) {
 }
 
 /// What an application of A has to read and write at least, a contact: each contact and gamma twice (D and D^T), its
-/// places, its diagonal (compliance) and its rate; and its share of the rods' mobilities, forces and velocities.
+/// local_rods, its diagonal (compliance) and its rate; and its share of the rods' mobilities, forces and velocities.
 double bytes_of_application(const PosedProblem& posed) {
-    const double contact = 2 * (sizeof(Contact) + sizeof(ContactMatrix::Ends)) + 4 * sizeof(double);
+    const double contact = 2 * (sizeof(Contact) + sizeof(ContactMatrix::RodPair)) + 4 * sizeof(double);
     const double place = sizeof(MobileRod) + 2 * sizeof(ContactForce) + 2 * sizeof(ContactVelocity);
     return contact + place * posed.rods_per_contact();
 }
@@ -130,22 +130,22 @@ void application_of_matrix(benchmark::State& state, const Crowd& crowd, std::siz
 /// written back, or its part of a pair that touches at several points; and its share of the rods' velocities.
 double bytes_of_sweep(const PosedProblem& posed) {
     constexpr double line = 64;
-    const auto ends = posed.problem.contact_matrix().ends();
+    const auto ends = posed.problem.contact_matrix().rod_pairs();
     const auto same_pair = [](const auto& a, const auto& b) { return a.i == b.i && a.j == b.j; };
     double bytes = 0.0;
     for (std::size_t l = 0; l < ends.size();) {
         std::size_t next = l + 1;
         while (next < ends.size() && same_pair(ends[next], ends[l])) ++next;
-        bytes += static_cast<double>(next == l + 1 ? sizeof(SweptContact<float>) : sizeof(SweptPair)) + line;
+        bytes += static_cast<double>(next == l + 1 ? sizeof(ScalarBlock<float>) : sizeof(CoupledBlock)) + line;
         l = next;
     }
-    return bytes / static_cast<double>(ends.size()) + 2 * sizeof(Wide<float>) * posed.rods_per_contact();
+    return bytes / static_cast<double>(ends.size()) + 2 * sizeof(SpatialVector<float>) * posed.rods_per_contact();
 }
 
 void sweep_over_all(benchmark::State& state, const Crowd& crowd, std::size_t bodies) {
     const PosedProblem posed(crowd, bodies);
     const std::vector<double> start(posed.problem.matrix().size(), 0.0);
-    Sweeper<float> sweeper(posed.problem, 1e-5, start);
+    BlockGaussSeidel<float> sweeper(posed.problem, 1e-5, start);
     for (auto unused : state) benchmark::DoNotOptimize(sweeper.sweep(1.1, SweepOver::all));
     count_items(state, posed.problem.matrix().size());
     state.counters["bytes_each"] = bytes_of_sweep(posed);

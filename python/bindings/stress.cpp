@@ -98,8 +98,8 @@ py::array sum_over_contacts(const Numbers& axis, const Numbers& length, const Nu
     std::vector<ContactForce> forces(matrix.rods().size());
     matrix.apply(numbers_in(force, "force"), forces);
     std::vector<Vec3> torques(forces.size());
-    for (std::size_t place = 0; place < forces.size(); ++place)
-        torques[place] = cross(rods.axis[matrix.rods()[place]], forces[place].lever);
+    for (std::size_t local = 0; local < forces.size(); ++local)
+        torques[local] = cross(rods.axis[matrix.rods()[local]], forces[local].moment);
     const Mat3 sum =
         sum_of_pair_stresses(contacts, numbers_in(force, "force"), rods, rods.axis, {matrix.rods(), torques},
                              touching ? ContactDistance::touching : ContactDistance::at_start);

@@ -54,7 +54,7 @@ Means grow(double time_step) {
             const ContactSolution& solution = simulation.contact_solution();
             for (std::size_t k = 0; k < solution.rods.size(); ++k) {
                 const std::uint32_t row = solution.rods[k];
-                const double force = -dot(solution.forces[k].lever, rods.axis[row]) / rods.length[row] / stall_force;
+                const double force = -dot(solution.forces[k].moment, rods.axis[row]) / rods.length[row] / stall_force;
                 compression += force;
                 squares += block < 0 ? 0.0 : force * force;
             }

@@ -24,18 +24,18 @@ void ContactMatrix::extend() {
         }
         return local_index_[row];
     };
-    ends_.reserve(contacts_.size());
-    for (std::size_t l = ends_.size(); l < contacts_.size(); ++l) {
+    rod_pairs_.reserve(contacts_.size());
+    for (std::size_t l = rod_pairs_.size(); l < contacts_.size(); ++l) {
         const std::uint32_t i = local_index_of(contacts_.contact[l].i);
-        ends_.push_back({i, local_index_of(contacts_.contact[l].j)});
+        rod_pairs_.push_back({i, local_index_of(contacts_.contact[l].j)});
     }
     begin_.clear();
 }
 
-void ContactMatrix::list_sides() const {
+void ContactMatrix::list_incidence() const {
     begin_.assign(rows_.size() + 1, 0);
-    sides_.resize(2 * size());
-    for (const Ends& ends : ends_) {
+    incidence_.resize(2 * size());
+    for (const RodPair& ends : rod_pairs_) {
         ++begin_[ends.i + 1];
         ++begin_[ends.j + 1];
     }
@@ -43,32 +43,32 @@ void ContactMatrix::list_sides() const {
     std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
     for (std::size_t l = 0; l < size(); ++l) {
         const auto side = static_cast<std::uint32_t>(2 * l);
-        sides_[next[ends_[l].i]++] = side;
-        sides_[next[ends_[l].j]++] = side + 1;
+        incidence_[next[rod_pairs_[l].i]++] = side;
+        incidence_[next[rod_pairs_[l].j]++] = side + 1;
     }
     const auto key = [this](std::uint32_t side) {
-        const Ends& ends = ends_[side / 2];
+        const RodPair& ends = rod_pairs_[side / 2];
         const bool is_j = side % 2 == 1;
         const PairKey key_of_pair = pair_of(contacts_, side / 2);
         return std::tuple(id_of(is_j ? ends.i : ends.j), is_j ? key_of_pair.turned().image : key_of_pair.image, side);
     };
     parallel_for(rows_.size(), [&](std::size_t k) {
-        std::sort(sides_.begin() + begin_[k], sides_.begin() + begin_[k + 1],
+        std::sort(incidence_.begin() + begin_[k], incidence_.begin() + begin_[k + 1],
                   [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
     });
 }
 
 void ContactMatrix::apply(std::span<const double> gamma, std::span<ContactForce> forces) const {
-    if (begin_.empty()) list_sides();
+    if (begin_.empty()) list_incidence();
     parallel_for(rows_.size(), [&](std::size_t k) {
         ContactForce sum;
         for (std::uint32_t entry = begin_[k]; entry < begin_[k + 1]; ++entry) {
-            const std::uint32_t side = sides_[entry];
+            const std::uint32_t side = incidence_[entry];
             const Contact& contact = contacts_.contact[side / 2];
             const bool is_j = (side % 2) == 1;
             const Vec3 push = (is_j ? gamma[side / 2] : -gamma[side / 2]) * contact.normal;
             sum.force += push;
-            sum.lever += (is_j ? contact.arm_j : contact.arm_i) * push;
+            sum.moment += (is_j ? contact.arm_j : contact.arm_i) * push;
         }
         forces[k] = sum;
     });
@@ -76,7 +76,7 @@ void ContactMatrix::apply(std::span<const double> gamma, std::span<ContactForce>
 
 void ContactMatrix::apply_transpose(std::span<const ContactVelocity> velocities, std::span<double> rates) const {
     parallel_for(size(), [&](std::size_t l) {
-        rates[l] = gap_rate(contacts_.contact[l], velocities[ends_[l].i], velocities[ends_[l].j]);
+        rates[l] = gap_rate(contacts_.contact[l], velocities[rod_pairs_[l].i], velocities[rod_pairs_[l].j]);
     });
 }
 

@@ -8,40 +8,40 @@
 
 namespace jostle {
 
-/// Force F on a rod, and the sum of arm * force over its contacts: its torque is axis x lever.
+/// Force F on a rod, and the sum of arm * force over its contacts: its torque is axis x moment.
 struct ContactForce {
-    Vec3 force, lever;
+    Vec3 force, moment;
 };
 
 /// Velocity U of a rod's centre, and W = Omega x axis: a point at `arm` along the axis has the velocity U + arm W.
 struct ContactVelocity {
-    Vec3 centre, turning;
+    Vec3 centre, axis_rate;
 };
 
 /// How fast the gap of a contact (or what else has its normal and arms) opens, D^T U.
 template <class ContactLike>
 double gap_rate(const ContactLike& contact, const ContactVelocity& i, const ContactVelocity& j) {
-    return dot(contact.normal, j.centre + contact.arm_j * j.turning - i.centre - contact.arm_i * i.turning);
+    return dot(contact.normal, j.centre + contact.arm_j * j.axis_rate - i.centre - contact.arm_i * i.axis_rate);
 }
 
 /// Adds D gamma of a contact to what acts on its two rods.
 template <class ContactLike>
-void add_push(double gamma, const ContactLike& contact, ContactForce& on_i, ContactForce& on_j) {
+void add_contact_force(double gamma, const ContactLike& contact, ContactForce& on_i, ContactForce& on_j) {
     const Vec3 push = gamma * contact.normal;
     on_i.force -= push;
-    on_i.lever -= contact.arm_i * push;
+    on_i.moment -= contact.arm_i * push;
     on_j.force += push;
-    on_j.lever += contact.arm_j * push;
+    on_j.moment += contact.arm_j * push;
 }
 
 /// The matrix D of theory, eq. (2.2), between contact forces gamma and the rods that have contacts. Never formed.
 ///
 /// Column l is (-normal, -a_i x normal; +normal, +a_j x normal) with arms a = arm * axis. As an arm is along its rod's
 /// axis, no cross product is needed per contact:
-///     D gamma:  force = sum of +- gamma normal,  lever = sum of +- arm gamma normal,
+///     D gamma:  force = sum of +- gamma normal,  moment = sum of +- arm gamma normal,
 ///     D^T U:    normal.(U_j + arm_j W_j - U_i - arm_i W_i).
-/// Rods without contacts have no part unless asked for: the others are numbered apart ("places", in the order of their
-/// first contacts). Holds a reference: the contacts must outlive it, and may only grow, as `extend` is then told.
+/// Rods without contacts have no part unless asked for: the others are numbered apart ("local index", in the order of
+/// their first contacts). Holds a reference: the contacts must outlive it, and may only grow, as `extend` is then told.
 class ContactMatrix {
 public:
     enum class Include { rods_with_contacts, all_rods };
@@ -54,39 +54,40 @@ public:
     void extend();
 
     /// Where a contact's rods stand among those with contacts.
-    struct Ends {
+    struct RodPair {
         std::uint32_t i, j;
     };
 
-    std::size_t size() const { return ends_.size(); }
+    std::size_t size() const { return rod_pairs_.size(); }
     const Contacts& contacts() const { return contacts_; }
-    std::span<const std::uint32_t> rods() const { return rows_; }  ///< (places) row of each
-    std::span<const Ends> ends() const { return ends_; }           ///< (contacts) places
+    std::span<const std::uint32_t> rods() const { return rows_; }      ///< (n) row of each
+    std::span<const RodPair> rod_pairs() const { return rod_pairs_; }  ///< (contacts) local indices
 
-    std::uint64_t id_of(std::uint32_t place) const { return ids_[rows_[place]]; }
+    std::uint64_t id_of(std::uint32_t local) const { return ids_[rows_[local]]; }
 
     /// (N) local index of each row, or `no_local_index`.
     std::span<const std::uint32_t> local_index() const { return local_index_; }
 
-    /// forces = D gamma, one a place; `gamma`: one force a contact, positive where the rods repel each other.
+    /// forces = D gamma, one a rod with contacts; `gamma`: one force a contact, positive where the rods repel each
+    /// other.
     void apply(std::span<const double> gamma, std::span<ContactForce> forces) const;
 
     /// rates = D^T velocities: the velocity at which each gap opens.
     void apply_transpose(std::span<const ContactVelocity> velocities, std::span<double> rates) const;
 
 private:
-    void list_sides() const;
+    void list_incidence() const;
 
     const Contacts& contacts_;
     std::span<const std::uint64_t> ids_;
     std::vector<std::uint32_t> local_index_;  ///< (N)
     std::vector<std::uint32_t> rows_;
-    std::vector<Ends> ends_;
-    /// Contacts of each place: 2 l where the rod is i of contact l, 2 l + 1 where it is j; in the order of the other
-    /// rods' ids, of the same other rod as the contacts stand. Each rod gathers its own forces, in this order, so that
-    /// the sum depends neither on threads nor on where rods stand in memory. Made when first needed.
-    mutable std::vector<std::uint32_t> begin_;  ///< (places + 1)
-    mutable std::vector<std::uint32_t> sides_;  ///< (2 contacts)
+    std::vector<RodPair> rod_pairs_;
+    /// Contacts of each local index: 2 l where the rod is i of contact l, 2 l + 1 where it is j; in the order of the
+    /// other rods' ids, of the same other rod as the contacts stand. Each rod gathers its own forces, in this order, so
+    /// that the sum depends neither on threads nor on where rods stand in memory. Made when first needed.
+    mutable std::vector<std::uint32_t> begin_;      ///< (n + 1)
+    mutable std::vector<std::uint32_t> incidence_;  ///< (2 contacts)
 };
 
 }  // namespace jostle

@@ -42,7 +42,7 @@ struct EndConfiguration {
         const std::uint32_t local = local_index[row];
         if (local == no_local_index) return known.axis[row];
         const Vec3& axis = rods.axis[row];
-        return rotated(axis, time_step * (known_velocity.angular[row] + cross(axis, velocity[local].turning)));
+        return rotated(axis, time_step * (known_velocity.angular[row] + cross(axis, velocity[local].axis_rate)));
     }
     Displacement displacement_of(std::uint32_t row) const {
         const std::uint32_t local = local_index[row];

@@ -24,13 +24,13 @@ void DelassusOperator::extend() {
     const std::size_t known_rods = rods_.size(), known_contacts = diagonal_.size();
     rods_.resize(rows.size());
     parallel_for(rows.size() - known_rods, [&](std::size_t k) {
-        const std::size_t place = known_rods + k;
-        rods_[place] = {all_rods_.axis[rows[place]], mobility_.of_rod(rows[place])};
+        const std::size_t local = known_rods + k;
+        rods_[local] = {all_rods_.axis[rows[local]], mobility_.of_rod(rows[local])};
     });
     diagonal_.resize(contact_matrix_.size());
     parallel_for(diagonal_.size() - known_contacts, [&](std::size_t k) {
         const std::size_t l = known_contacts + k;
-        const auto [i, j] = contact_matrix_.ends()[l];
+        const auto [i, j] = contact_matrix_.rod_pairs()[l];
         const Contact& contact = contact_matrix_.contacts().contact[l];
         const double own = couples_rods() ? mobility_.relative_mobility(points_of(contact, all_rods_))
                                           : relative_mobility(contact, rods_[i], rods_[j]);
@@ -59,8 +59,8 @@ void DelassusOperator::velocities(std::span<const double> gamma, std::span<Conta
         apply_coupling_mobility(forces, velocities);
         return;
     }
-    parallel_for(rods_.size(), [&](std::size_t place) {
-        velocities[place] = velocity_of(rods_[place], forces[place].force, forces[place].lever);
+    parallel_for(rods_.size(), [&](std::size_t local) {
+        velocities[local] = velocity_of(rods_[local], forces[local].force, forces[local].moment);
     });
 }
 
@@ -69,14 +69,14 @@ void DelassusOperator::apply_coupling_mobility(std::span<const ContactForce> for
     const auto rows = contact_matrix_.rods();
     Forces all_forces(all_rods_.size());
     Velocities all_velocities(all_rods_.size());
-    parallel_for(rows.size(), [&](std::size_t place) {
-        all_forces.force[rows[place]] = forces[place].force;
-        all_forces.torque[rows[place]] = cross(rods_[place].axis, forces[place].lever);
+    parallel_for(rows.size(), [&](std::size_t local) {
+        all_forces.force[rows[local]] = forces[local].force;
+        all_forces.torque[rows[local]] = cross(rods_[local].axis, forces[local].moment);
     });
     mobility_.apply(all_forces, all_velocities);
-    parallel_for(rows.size(), [&](std::size_t place) {
-        const std::uint32_t row = rows[place];
-        velocities[place] = {all_velocities.linear[row], cross(all_velocities.angular[row], rods_[place].axis)};
+    parallel_for(rows.size(), [&](std::size_t local) {
+        const std::uint32_t row = rows[local];
+        velocities[local] = {all_velocities.linear[row], cross(all_velocities.angular[row], rods_[local].axis)};
     });
 }
 

@@ -37,7 +37,7 @@ public:
     void rates(std::span<const ContactVelocity> velocities, std::span<const double> gamma,
                std::span<double> rates) const;
 
-    /// D gamma and M D gamma, one a place.
+    /// D gamma and M D gamma, one a rod with contacts.
     void velocities(std::span<const double> gamma, std::span<ContactForce> forces,
                     std::span<ContactVelocity> velocities) const;
 
@@ -50,16 +50,16 @@ private:
     double compliance_;
     std::vector<MobileRod> rods_;
     std::vector<double> diagonal_;
-    mutable std::vector<ContactForce> forces_;         ///< (places) scratch
-    mutable std::vector<ContactVelocity> velocities_;  ///< (places) scratch
+    mutable std::vector<ContactForce> forces_;         ///< (n) scratch
+    mutable std::vector<ContactVelocity> velocities_;  ///< (n) scratch
 };
 
 /// The answer of one rod that feels its own drag only: U = [parallel n n + perpendicular (I - n n)] F, and W = Omega x
-/// n = rotational (I - n n) lever.
-inline ContactVelocity velocity_of(const MobileRod& rod, const Vec3& force, const Vec3& lever) {
+/// n = rotational (I - n n) moment.
+inline ContactVelocity velocity_of(const MobileRod& rod, const Vec3& force, const Vec3& moment) {
     const RodMobility& m = rod.mobility;
     return {m.perpendicular * force + ((m.parallel - m.perpendicular) * dot(rod.axis, force)) * rod.axis,
-            m.rotational * (lever - dot(rod.axis, lever) * rod.axis)};
+            m.rotational * (moment - dot(rod.axis, moment) * rod.axis)};
 }
 
 }  // namespace jostle

@@ -4,7 +4,7 @@
 #include <bit>
 #include <tuple>
 
-#include "jostle/contact_problem/pair_problem.hpp"
+#include "jostle/contact_problem/block_problem.hpp"
 #include "jostle/math/mixed_bits.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
@@ -12,7 +12,7 @@ namespace jostle {
 
 namespace {
 
-constexpr std::size_t most_colours = 64;
+constexpr std::size_t max_colours = 64;
 
 std::uint64_t priority_of(std::uint64_t id_i, std::uint64_t id_j, const Image& image) {
     std::uint64_t hash = mixed_bits(mixed_bits(id_i) + id_j);
@@ -41,13 +41,13 @@ const std::vector<std::vector<ContactPair>>& PairColours::extend(const ContactMa
 }
 
 void PairColours::list_new_pairs(const ContactMatrix& contact_matrix) {
-    const auto ends = contact_matrix.ends();
+    const auto ends = contact_matrix.rod_pairs();
     const Contacts& contacts = contact_matrix.contacts();
     pairs_.clear();
     for (auto l = static_cast<std::uint32_t>(coloured_); l < ends.size();) {
         const auto [i, j] = ends[l];
         std::uint32_t next = l + 1;
-        while (next < ends.size() && next < l + most_points && ends[next].i == i && ends[next].j == j &&
+        while (next < ends.size() && next < l + max_points && ends[next].i == i && ends[next].j == j &&
                contacts.image[next] == contacts.image[l])
             ++next;
         pairs_.push_back({i, j, l, next - l});
@@ -64,14 +64,14 @@ void PairColours::list_new_pairs(const ContactMatrix& contact_matrix) {
 
 /// Lists the new pairs of each rod in the order of their turns, and those that are first at both.
 void PairColours::list_turns(const ContactMatrix& contact_matrix) {
-    const std::size_t places = contact_matrix.rods().size();
-    taken_.resize(places, 0);
-    begin_.assign(places + 1, 0);
+    const std::size_t count = contact_matrix.rods().size();
+    taken_.resize(count, 0);
+    begin_.assign(count + 1, 0);
     for (const ContactPair& pair : pairs_) {
         ++begin_[pair.i + 1];
         if (pair.j != pair.i) ++begin_[pair.j + 1];
     }
-    for (std::size_t k = 0; k < places; ++k) begin_[k + 1] += begin_[k];
+    for (std::size_t k = 0; k < count; ++k) begin_[k + 1] += begin_[k];
     turns_.resize(begin_.back());
     next_.assign(begin_.begin(), begin_.end() - 1);
     for (std::uint32_t p = 0; p < pairs_.size(); ++p) {
@@ -79,11 +79,11 @@ void PairColours::list_turns(const ContactMatrix& contact_matrix) {
         turns_[next_[pair.i]++] = {priority_[p], p};
         if (pair.j != pair.i) turns_[next_[pair.j]++] = {priority_[p], p};
     }
-    parallel_for(places, [&](std::size_t place) {
-        const auto first = turns_.begin() + begin_[place], last = turns_.begin() + begin_[place + 1];
+    parallel_for(count, [&](std::size_t local) {
+        const auto first = turns_.begin() + begin_[local], last = turns_.begin() + begin_[local + 1];
         if (last - first > 1)
             std::sort(first, last, [&](const Turn& a, const Turn& b) { return comes_before(a, b, contact_matrix); });
-        next_[place] = begin_[place];
+        next_[local] = begin_[local];
     });
     ready_.clear();
     for (std::uint32_t p = 0; p < pairs_.size(); ++p)
@@ -104,7 +104,7 @@ bool PairColours::comes_before(const Turn& a, const Turn& b, const ContactMatrix
 void PairColours::give_colour(std::uint32_t number) {
     const ContactPair& pair = pairs_[number];
     const auto colour = static_cast<std::size_t>(std::countr_one(taken_[pair.i] | taken_[pair.j]));
-    if (colour >= most_colours) {  // a rod with very many neighbours
+    if (colour >= max_colours) {  // a rod with very many neighbours
         beyond_.push_back(number);
         return;
     }
@@ -114,12 +114,12 @@ void PairColours::give_colour(std::uint32_t number) {
     by_colour_[colour].push_back(pair);
 }
 
-/// The pair of a place whose turn it was has its colour: the next may be ready.
-void PairColours::advance(std::uint32_t place) {
-    if (++next_[place] == begin_[place + 1]) return;
-    const std::uint32_t p = turns_[next_[place]].pair;
+/// The pair of a rod whose turn it was has its colour: the next may be ready.
+void PairColours::advance(std::uint32_t local) {
+    if (++next_[local] == begin_[local + 1]) return;
+    const std::uint32_t p = turns_[next_[local]].pair;
     const ContactPair& pair = pairs_[p];
-    const std::uint32_t other = pair.i == place ? pair.j : pair.i;
+    const std::uint32_t other = pair.i == local ? pair.j : pair.i;
     if (next_[other] < begin_[other + 1] && turns_[next_[other]].pair == p) ready_.push_back(p);
 }
 
@@ -129,7 +129,7 @@ void PairColours::give_colours_beyond_most(const ContactMatrix& contact_matrix) 
         return comes_before({priority_[a], a}, {priority_[b], b}, contact_matrix);
     });
     for (const std::uint32_t p : beyond_) {
-        by_colour_.resize(std::max(by_colour_.size(), most_colours));
+        by_colour_.resize(std::max(by_colour_.size(), max_colours));
         by_colour_.push_back({pairs_[p]});
     }
 }

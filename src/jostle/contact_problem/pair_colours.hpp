@@ -10,7 +10,7 @@ namespace jostle {
 
 /// The contacts of one pair of rods in one image, which follow each other.
 struct ContactPair {
-    std::uint32_t i, j;          ///< places
+    std::uint32_t i, j;          ///< local indices
     std::uint32_t first, count;  ///< contacts
 };
 
@@ -37,18 +37,18 @@ private:
     void list_turns(const ContactMatrix& contact_matrix);
     bool comes_before(const Turn& a, const Turn& b, const ContactMatrix& contact_matrix) const;
     void give_colour(std::uint32_t pair);
-    void advance(std::uint32_t place);
+    void advance(std::uint32_t local);
     void give_colours_beyond_most(const ContactMatrix& contact_matrix);
 
-    std::vector<std::uint64_t> taken_;  ///< (places) a bit for each colour that a rod has
+    std::vector<std::uint64_t> taken_;  ///< (n) a bit for each colour that a rod has
     std::size_t coloured_ = 0;          ///< contacts taken in
     std::vector<std::vector<ContactPair>> by_colour_;
     // of the pairs that are taken in
     std::vector<ContactPair> pairs_;
     std::vector<std::uint64_t> priority_;  ///< (pairs)
-    std::vector<std::uint32_t> begin_;     ///< (places + 1) into turns_
-    std::vector<Turn> turns_;              ///< of each place, the next first
-    std::vector<std::uint32_t> next_;      ///< (places) whose turn it is: an index into turns_
+    std::vector<std::uint32_t> begin_;     ///< (n + 1) into turns_
+    std::vector<Turn> turns_;              ///< of each local index, the next first
+    std::vector<std::uint32_t> next_;      ///< (n) whose turn it is: an index into turns_
     std::vector<std::uint32_t> ready_;     ///< pairs whose turn it is at both rods
     std::vector<std::uint32_t> beyond_;    ///< pairs for which no colour was left
 };

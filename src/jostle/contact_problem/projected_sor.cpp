@@ -4,7 +4,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "jostle/contact_problem/sweeper.hpp"
+#include "jostle/contact_problem/block_gauss_seidel.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
@@ -103,7 +103,7 @@ private:
         const std::uint64_t period = warm_ ? full_sweep_every_if_warm : full_sweep_every;
         over_all_ = std::exchange(look_at_all_, false) || outcome_.iterations % period == period - 1;
         const double omega = relaxation(outcome_.iterations, problem_.matrix().compliant(), warm_);
-        change_ = problem_.time_step() * sweeper_.sweep(omega, over_all_ ? SweepOver::all : SweepOver::awake);
+        change_ = problem_.time_step() * sweeper_.sweep(omega, over_all_ ? SweepOver::all : SweepOver::active);
         ++outcome_.iterations;
     }
 
@@ -140,7 +140,7 @@ private:
     SolverOutcome& outcome_;
     int max_failures_, failures_ = 0;
     bool verify_first_, warm_;
-    Sweeper<Real> sweeper_;
+    BlockGaussSeidel<Real> sweeper_;
     std::uint64_t next_search_ = early_search, next_verification_ = 0;
     bool at_candidate_ = false, look_at_all_ = false;
     bool over_all_ = false;  ///< the last sweep was

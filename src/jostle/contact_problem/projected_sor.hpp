@@ -18,9 +18,9 @@ namespace jostle {
 /// two of one colour share a rod (PairColours): pairs of a colour can be solved by any threads in any order with the
 /// same result.
 ///
-/// Only contacts that push, or are about to, take part in most sweeps (Sweeper). Before the result is called solved,
-/// forces and velocities are computed anew from gamma, and the residual over all contacts from them. It stops at a
-/// candidate now and then while sweeps go on, and at every solution. The outcome's iterations are sweeps.
+/// Only contacts that push, or are about to, take part in most sweeps (BlockGaussSeidel). Before the result is called
+/// solved, forces and velocities are computed anew from gamma, and the residual over all contacts from them. It stops
+/// at a candidate now and then while sweeps go on, and at every solution. The outcome's iterations are sweeps.
 ///
 /// Sweeps begin in float where that is fine enough for the tolerance; double takes over where it is not.
 class ProjectedSor final : public ContactSolver {

@@ -15,8 +15,8 @@ namespace jostle {
 
 namespace {
 
-constexpr int most_links = 40;  // as many as the system follows
-constexpr int most_names = 100;
+constexpr int max_links = 40;  // as many as the system follows
+constexpr int max_names = 100;
 
 [[noreturn]] void fail(const std::string& path, const char* operation, int error_number) {
     throw DiskError(path, operation, std::generic_category().message(error_number));
@@ -24,7 +24,7 @@ constexpr int most_names = 100;
 
 /// The file that a path leads to, whether it is there or not.
 std::string followed(std::string path) {
-    for (int k = 0; k < most_links; ++k) {
+    for (int k = 0; k < max_links; ++k) {
         std::error_code none;
         const std::filesystem::path target = std::filesystem::read_symlink(path, none);
         if (none) return path;
@@ -36,7 +36,7 @@ std::string followed(std::string path) {
 /// A new file beside `path`; `name` is what it is called.
 int new_file_beside(const std::string& path, std::string& name) {
     std::random_device random;
-    for (int k = 0; k < most_names; ++k) {
+    for (int k = 0; k < max_names; ++k) {
         name = path + "." + std::to_string(random()) + ".tmp";
         const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor >= 0) return descriptor;

@@ -88,7 +88,7 @@ void Growth::slow_down(Rods& rods, std::span<const std::uint32_t> rows, std::spa
     std::vector<double> compression(rods.size(), 0.0);
     parallel_for(rows.size(), [&](std::size_t k) {
         const std::uint32_t row = rows[k];
-        if (rods.length[row] > 0.0) compression[row] = -dot(forces[k].lever, rods.axis[row]) / rods.length[row];
+        if (rods.length[row] > 0.0) compression[row] = -dot(forces[k].moment, rods.axis[row]) / rods.length[row];
     });
     parallel_for(rods.size(), [&](std::size_t i) {
         double& share = rods.cycle[i].share;

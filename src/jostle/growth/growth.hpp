@@ -39,7 +39,7 @@ public:
 
     /// How much compression slows the cells: dL/dt = rate (1 - F/F_stall), at least 0, with F averaged over
     /// `stall_memory` (theory, eq. 5.2). `rows`: of the rods with contacts; `forces`: (rows.size()) on them in this
-    /// step; the compression by them is -lever.n/L.
+    /// step; the compression by them is -moment.n/L.
     void slow_down(Rods& rods, std::span<const std::uint32_t> rows, std::span<const ContactForce> forces,
                    double time_step) const;
 

@@ -38,7 +38,7 @@ public:
         digit_[first + 2] += part(mantissa >> 32 >> (32 - within));
         begin_ = std::min(begin_, first);
         end_ = std::max(end_, first + 3);
-        if (++terms_ == most_terms) carry();
+        if (++terms_ == max_terms) carry();
     }
 
     static constexpr std::size_t batch = 128;
@@ -46,7 +46,7 @@ public:
     void add_all(std::span<const double> numbers);
 
     ExactSum& operator+=(const ExactSum& other) {
-        if (terms_ + other.terms_ >= most_terms) carry();
+        if (terms_ + other.terms_ >= max_terms) carry();
         for (unsigned k = other.begin_; k < other.end_; ++k) digit_[k] += other.digit_[k];
         begin_ = std::min(begin_, other.begin_);
         end_ = std::max(end_, other.end_);
@@ -89,8 +89,8 @@ public:
     }
 
 private:
-    static constexpr unsigned digits = 68;  // 2046 positions and a mantissa, and room above
-    static constexpr std::uint64_t most_terms = std::uint64_t{1} << 30;  // of less than 2^32 each, in 63 bits
+    static constexpr unsigned digits = 68;                              // 2046 positions and a mantissa, and room above
+    static constexpr std::uint64_t max_terms = std::uint64_t{1} << 30;  // of less than 2^32 each, in 63 bits
 
     /// Leaves digits of 0 to 2^32 - 1, but for the last, which has the sign.
     void carry() {

@@ -8,7 +8,7 @@ namespace jostle {
 
 namespace {
 
-constexpr int most_patience = 200;
+constexpr int max_patience = 200;
 constexpr double worth_changing = 0.9;  ///< the other number's time over the present one's, at most
 constexpr double hopeless = 1.3;        ///< a trial ends where its first step takes this much longer
 constexpr double disturbed = 1.5;       ///< steps that have become longer by this much call for a trial
@@ -72,7 +72,7 @@ void ThreadChoice::end_trial(bool faster) {
         patience_ = least_patience;
         times_.fill(median(trial_));
     } else {
-        patience_ = std::min(2 * patience_, most_patience);
+        patience_ = std::min(2 * patience_, max_patience);
         fewer_ = !fewer_;
     }
     usual_at_trial_ = usual();

@@ -21,13 +21,13 @@ namespace {
 
 /// For fewer, loops are so short that another thread saves no more than waiting for it takes (docs/performance.md).
 constexpr std::size_t rods_per_thread = 2000;
-constexpr int most_threads = 4096;
+constexpr int max_threads = 4096;
 
 const auto processors = static_cast<std::size_t>(omp_get_num_procs());
 const char* const environment = std::getenv("OMP_NUM_THREADS");
 std::atomic<int> chosen = 0;  ///< 0: OpenMP's own, which belongs to the calling thread
 std::atomic<int> start = 1;   ///< so many have been seen to start
-std::atomic<int> most_that_start = most_threads;
+std::atomic<int> max_that_start = max_threads;
 
 // A child of a fork has one thread. OpenMP would wait there for ever for those that it had started in the parent.
 std::atomic<bool> has_started = false, is_forked = false;
@@ -50,10 +50,10 @@ int seen_to_start(int wanted) {
 
 /// So many threads, or as many of them as the system starts.
 int as_many_as_start(int wanted) {
-    if (wanted > most_that_start) return most_that_start;
+    if (wanted > max_that_start) return max_that_start;
     if (wanted <= start) return wanted;
     const int found = seen_to_start(wanted);
-    if (found < wanted) most_that_start = found;
+    if (found < wanted) max_that_start = found;
     start = std::max(start.load(), found);
     return found;
 }
@@ -70,8 +70,8 @@ int as_many_as_start(int wanted) {
 
 /// The one range of all numbers of threads, whoever asks for them.
 int checked(long long count, const char* key, const std::string& value) {
-    if (count < 1 || count > most_threads)
-        refuse(key, value, "is no number of threads", "1 to " + std::to_string(most_threads), "");
+    if (count < 1 || count > max_threads)
+        refuse(key, value, "is no number of threads", "1 to " + std::to_string(max_threads), "");
     const int found = as_many_as_start(static_cast<int>(count));
     if (found < count)
         refuse(key, value, "the system does not start so many threads", "1 to " + std::to_string(found),
@@ -105,7 +105,7 @@ bool thread_count_is_free() {
 }
 
 int worthwhile_thread_count(std::size_t rods) {
-    const auto most = std::min(processors, static_cast<std::size_t>(most_that_start));
+    const auto most = std::min(processors, static_cast<std::size_t>(max_that_start));
     return static_cast<int>(std::clamp(rods / rods_per_thread, std::size_t{1}, most));
 }
 
@@ -117,7 +117,7 @@ int thread_count() {
     if (is_forked) return 1;
     if (chosen > 0) return chosen;
     static const int from_environment = number_in_environment();
-    return from_environment > 0 ? from_environment : std::min(omp_get_max_threads(), most_threads);
+    return from_environment > 0 ? from_environment : std::min(omp_get_max_threads(), max_threads);
 }
 
 int team_size(bool on_one) {

@@ -10,6 +10,6 @@ struct Clock {
     double time = 0.0;
 };
 
-inline constexpr std::uint64_t most_steps = 1'000'000'000'000'000;  ///< of a run: counts stay exact as double
+inline constexpr std::uint64_t max_steps = 1'000'000'000'000'000;  ///< of a run: counts stay exact as double
 
 }  // namespace jostle

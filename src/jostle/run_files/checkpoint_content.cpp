@@ -15,10 +15,10 @@ namespace {
 /// Of centres and edges: rounding when a rod is wrapped.
 constexpr double rounding = 1e-9;
 /// Rods that leave an open box go as many of its edges at most; farther ones would be in no cell of a grid.
-constexpr double most_edges_away = 1e12;
+constexpr double max_edges_away = 1e12;
 /// Of |axis|^2 from 1.
 constexpr double axis_tolerance = 1e-6;
-constexpr std::uint64_t most_ids = std::uint64_t{1} << 53;  ///< as a double tells them apart
+constexpr std::uint64_t max_ids = std::uint64_t{1} << 53;  ///< as a double tells them apart
 
 /// Collects the first problem.
 class ContentCheck {
@@ -49,7 +49,7 @@ void check_box(const Box& box, ContentCheck& check) {
 }
 
 void check_rods(const Rods& rods, const Box& box, ContentCheck& check) {
-    const double farthest = most_edges_away * std::max({box.edges.x, box.edges.y, box.edges.z});
+    const double farthest = max_edges_away * std::max({box.edges.x, box.edges.y, box.edges.z});
     for (std::size_t i = 0; i < rods.size(); ++i) {
         for (int k = 0; k < 3; ++k) {
             const bool wrapped = box.periodic[static_cast<std::size_t>(k)];
@@ -77,7 +77,7 @@ void check_ids(const Rods& rods, ContentCheck& check) {
     std::sort(ids.begin(), ids.end());
     const auto twice = std::adjacent_find(ids.begin(), ids.end());
     if (twice != ids.end()) check.require(false, "an id of two rods", static_cast<double>(*twice));
-    const std::uint64_t end = rods.cycle.empty() ? rods.size() : most_ids;
+    const std::uint64_t end = rods.cycle.empty() ? rods.size() : max_ids;
     if (!ids.empty()) check.require(ids.back() < end, "id of a rod", static_cast<double>(ids.back()));
 }
 
@@ -96,7 +96,7 @@ void check_springs(const std::vector<Spring>& springs, std::size_t rods, Content
 
 std::string impossible_content(const Checkpoint& checkpoint) {
     ContentCheck check;
-    check.require(checkpoint.state.clock.step <= most_steps, "step", static_cast<double>(checkpoint.state.clock.step));
+    check.require(checkpoint.state.clock.step <= max_steps, "step", static_cast<double>(checkpoint.state.clock.step));
     check.require(is_zero_or_positive(checkpoint.state.clock.time), "time", checkpoint.state.clock.time);
     check_box(checkpoint.state.box, check);
     check_rods(checkpoint.state.rods, checkpoint.state.box, check);

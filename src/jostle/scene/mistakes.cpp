@@ -8,7 +8,7 @@ namespace jostle {
 
 namespace {
 
-constexpr std::size_t most_told = 20;
+constexpr std::size_t max_told = 20;
 
 std::pair<int, int> line_and_column(const InputError& error) {
     return {error.parts().place.line, error.parts().place.column};
@@ -33,7 +33,7 @@ void Mistakes::sort_by_place() {
 
 void Mistakes::refuse_any() const {
     if (found_.empty()) return;
-    const std::size_t told = std::min(found_.size(), most_told);
+    const std::size_t told = std::min(found_.size(), max_told);
     std::vector<InputError> others(found_.begin() + 1, found_.begin() + static_cast<std::ptrdiff_t>(told));
     if (told < found_.size())
         others.push_back(InputError({.problem = std::to_string(found_.size() - told) + " more mistakes"}));

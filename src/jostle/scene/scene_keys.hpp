@@ -96,7 +96,7 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("growth", "stall_force", scene.growth.stall_force, Quantity{dim::force, positive});
     visit("growth", "stall_memory", scene.growth.stall_memory, Quantity{dim::time, positive, true});
     visit("growth", "death_rate", scene.growth.death_rate, Quantity{dim::rate, zero_or_positive});
-    visit("growth", "division_every", scene.growth.division_every, Count{1, most_steps});
+    visit("growth", "division_every", scene.growth.division_every, Count{1, max_steps});
     visit("springs", "file", scene.springs.file, Plain{});
     visit("contact", "model", scene.contact.model, Plain{});
     visit("contact", "energy", scene.contact.energy, Quantity{dim::energy, positive, true});
@@ -115,7 +115,7 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("time", "equilibration", scene.time.equilibration, Quantity{dim::time, zero_or_positive, true, true});
     visit("time", "production", scene.time.production,
           Quantity{.dimension = dim::time, .range = positive, .may_change = true});
-    visit("output", "series_every", scene.output.series_every, Count{1, most_steps});
+    visit("output", "series_every", scene.output.series_every, Count{1, max_steps});
     visit("output", "trajectory_every", scene.output.trajectory_every, Count{.automatic = true, .may_change = true});
     visit("output", "trajectory_times", scene.output.trajectory_times, Plain{.may_change = true});
     visit("output", "checkpoint_every", scene.output.checkpoint_every, Count{.lower = 1, .may_change = true});

@@ -27,7 +27,7 @@ constexpr double farthest_swim = 0.5;
 constexpr double deviations_of_the_fastest = 4.0;
 /// Cells divide late by as much of what they add from birth to division, at most, for being looked at now and then.
 constexpr double latest_division = 0.25;
-constexpr auto largest_step_number = static_cast<double>(most_steps);
+constexpr auto largest_step_number = static_cast<double>(max_steps);
 
 constexpr const char* slower_tumbles = "Use a shorter time.step or slower tumbles";
 
@@ -48,12 +48,12 @@ void require_short_growth(const Scene& scene, double diameter, double time_step)
                fmt::format("at most {}, a tenth of the diameter in a step", rounded(longest / (fastest * time_step))),
                "Use a shorter time.step");
     const double added = 0.5 * (scene.growth.division_length + diameter);
-    const double most_steps_between = std::max(1.0, std::floor(latest_division * added / of_step));
-    if (static_cast<double>(scene.growth.division_every) > most_steps_between)
+    const double max_steps_between = std::max(1.0, std::floor(latest_division * added / of_step));
+    if (static_cast<double>(scene.growth.division_every) > max_steps_between)
         refuse("growth.division_every", fmt::format("{}", scene.growth.division_every),
                fmt::format("lets cells grow by {} between two looks at who divides; from birth to division they add {}",
                            rounded(static_cast<double>(scene.growth.division_every) * of_step), rounded(added)),
-               fmt::format("at most {:.0f}, a quarter of it", most_steps_between),
+               fmt::format("at most {:.0f}, a quarter of it", max_steps_between),
                "Look more often, or use a shorter time.step");
 }
 

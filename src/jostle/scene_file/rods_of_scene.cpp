@@ -20,7 +20,7 @@ namespace jostle {
 
 namespace {
 
-constexpr double most_edges_away = 1e6;
+constexpr double max_edges_away = 1e6;
 
 /// The file that a key of the scene names, relative to the scene's folder. Errors: InputError if it is not there.
 std::filesystem::path named_file(const char* key, const std::string& name, const std::filesystem::path& scene_path) {
@@ -69,7 +69,7 @@ double longest_of(const Rods& rods) {
 
 /// Farther away, doubles would no longer tell where in the box a rod is.
 void require_near(const Rods& rods, const Box& box, const std::string& file) {
-    const double farthest = most_edges_away * std::max({box.edges.x, box.edges.y, box.edges.z});
+    const double farthest = max_edges_away * std::max({box.edges.x, box.edges.y, box.edges.z});
     for (std::size_t i = 0; i < rods.size(); ++i)
         for (int k = 0; k < 3; ++k)
             if (std::fabs(rods.centre[i][k]) > farthest)

@@ -90,7 +90,7 @@ private:
         const auto drifts = [](std::span<const double> series) {
             return drift(series.last(series.size() / 2)).is_significant();
         };
-        while (!(done_.settled = !drifts(Z) && !drifts(order)) && static_cast<int>(Z.size()) < most_annealing_steps) {
+        while (!(done_.settled = !drifts(Z) && !drifts(order)) && static_cast<int>(Z.size()) < max_annealing_steps) {
             shake({static_cast<int>(Z.size()), settling.rms, settling.corrected});
             if (Z_.empty()) return;
             Z.insert(Z.end(), Z_.begin(), Z_.end());

@@ -20,7 +20,7 @@ struct Annealing {
 };
 
 /// At most so many Brownian steps of 0.1 D; then it is over, settled or not.
-inline constexpr int most_annealing_steps = 1600;
+inline constexpr int max_annealing_steps = 1600;
 
 /// Is called between sweeps and steps, with what has been done. May throw, to stop.
 using AnnealingWatch = std::function<void(const Annealing&)>;

@@ -17,24 +17,24 @@ constexpr double free_space = 1e-3;
 constexpr double reach = 0.1;
 constexpr double largest_move = 0.2;  ///< of any point of a rod in a round
 constexpr double apart_tolerance = 1e-4;
-constexpr int most_rounds = 2000;
+constexpr int max_rounds = 2000;
 constexpr double overlap_rounding =
     1e-12;  ///< overlaps that are none: of a rod with its own image in a box of just its width
 constexpr std::uint64_t iterations_each_round = 300;
 
 /// Moves the rods by the velocities (time step 1), all slowed down alike so that none goes too far.
 void move(Rods& rods, const Box& box, const ContactSolution& solution, double limit) {
-    const double fastest = parallel_max(solution.rods.size(), 0.0, [&](std::size_t place) {
-        const auto& [linear, turning] = solution.velocities[place];
-        return norm(linear) + 0.5 * rods.length[solution.rods[place]] * norm(turning);
+    const double fastest = parallel_max(solution.rods.size(), 0.0, [&](std::size_t local) {
+        const auto& [linear, axis_rate] = solution.velocities[local];
+        return norm(linear) + 0.5 * rods.length[solution.rods[local]] * norm(axis_rate);
     });
     const double fraction = fastest > limit ? limit / fastest : 1.0;
-    parallel_for(solution.rods.size(), [&](std::size_t place) {
-        const std::uint32_t row = solution.rods[place];
-        const auto& [linear, turning] = solution.velocities[place];
+    parallel_for(solution.rods.size(), [&](std::size_t local) {
+        const std::uint32_t row = solution.rods[local];
+        const auto& [linear, axis_rate] = solution.velocities[local];
         rods.centre[row] += fraction * linear;
         box.wrap(rods.centre[row], rods.image[row]);
-        rods.axis[row] = rotated(rods.axis[row], fraction * cross(rods.axis[row], turning));
+        rods.axis[row] = rotated(rods.axis[row], fraction * cross(rods.axis[row], axis_rate));
     });
 }
 
@@ -56,7 +56,7 @@ PushApartResult push_apart(Rods& rods, const Box& box, const Mobility& mobility)
         neighbours.update(rods, box, reaches);
         result.overlap = find_contacts(rods, box, neighbours, reaches, contacts);
         result.apart = result.overlap <= overlap_rounding * thinnest;
-        if (result.apart || result.rounds == most_rounds) return result;
+        if (result.apart || result.rounds == max_rounds) return result;
 
         std::vector<double> b(contacts.size());
         parallel_for(b.size(), [&](std::size_t l) {

@@ -18,7 +18,7 @@ namespace jostle {
 namespace {
 
 /// Draws of a rod's place before what still overlaps is left to others; many more where it is but a few.
-constexpr std::uint32_t most_draws = 100, most_draws_of_few = 1000;
+constexpr std::uint32_t max_draws = 100, max_draws_of_few = 1000;
 constexpr double few = 0.01;
 
 using Rows = std::vector<std::uint32_t>;
@@ -87,11 +87,11 @@ Rods scattered_rods(const Scene& scene, const Box& box, const std::optional<Vec3
     };
     renumber_all();
     const std::size_t worth_renumbering = rods.size() / 64;  // fewer are soon looked at, wherever they lie
-    const auto most_few = static_cast<std::size_t>(few * static_cast<double>(rods.size()));
+    const auto max_few = static_cast<std::size_t>(few * static_cast<double>(rods.size()));
     for (std::uint32_t draw = 1;; ++draw) {
         sort_by_cell(again, rods, grid);
         again = rows_to_draw_again(rods, cells, again);
-        if (again.empty() || draw >= (again.size() <= most_few ? most_draws_of_few : most_draws)) break;
+        if (again.empty() || draw >= (again.size() <= max_few ? max_draws_of_few : max_draws)) break;
         for (const std::uint32_t row : again) cells.take_out(row, rods.centre[row]);
         draw_places(again, draw);
         for (const std::uint32_t row : again) cells.put_in(row, rods.centre[row]);

@@ -164,12 +164,12 @@ EndConfiguration Simulation::end_configuration(const ContactMatrix& contact_matr
     const auto rows = contact_matrix.rods();
     displacement_.resize(rows.size());
     parallel_for(rows.size(), [&](std::size_t k) {
-        const auto& [linear, turning] = solution.velocities[k];
+        const auto& [linear, axis_rate] = solution.velocities[k];
         const double half = 0.5 * state_.rods.length[rows[k]];
         // Rotations add up to second order in their angles.
-        const double twist = half * dt * dt * norm(turning) * norm(known_.velocity.angular[rows[k]]);
-        const Vec3 centre = dt * linear, end = (dt * half) * turning;
-        const double farthest = farthest_displacement(centre, dt * turning, half) + twist;
+        const double twist = half * dt * dt * norm(axis_rate) * norm(known_.velocity.angular[rows[k]]);
+        const Vec3 centre = dt * linear, end = (dt * half) * axis_rate;
+        const double farthest = farthest_displacement(centre, dt * axis_rate, half) + twist;
         const double rounding = 1e-6 * farthest;
         displacement_[k] = {in_float(centre), in_float(end), static_cast<float>(farthest + rounding),
                             static_cast<float>(twist + rounding)};
@@ -199,9 +199,9 @@ void Simulation::advance() {
     const double dt = settings_.time_step;
     parallel_for(solution_.rods.size(), [&](std::size_t k) {
         const std::uint32_t row = solution_.rods[k];
-        const auto& [linear, turning] = solution_.velocities[k];
+        const auto& [linear, axis_rate] = solution_.velocities[k];
         centre[row] = rods.centre[row] + dt * (known_.velocity.linear[row] + linear);
-        axis[row] = rotated(rods.axis[row], dt * (known_.velocity.angular[row] + cross(rods.axis[row], turning)));
+        axis[row] = rotated(rods.axis[row], dt * (known_.velocity.angular[row] + cross(rods.axis[row], axis_rate)));
     });
     rods.centre.swap(centre);
     rods.axis.swap(axis);

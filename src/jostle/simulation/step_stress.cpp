@@ -14,7 +14,7 @@ void find_half_way_axes(const ResolvedStep& step, double time_step, std::vector<
     parallel_for(step.solution.rods.size(), [&](std::size_t k) {
         const std::uint32_t row = step.solution.rods[k];
         const Vec3& axis = step.state.rods.axis[row];
-        const Vec3 collision = cross(axis, step.solution.velocities[k].turning);
+        const Vec3 collision = cross(axis, step.solution.velocities[k].axis_rate);
         const Vec3 by_springs = step.state.springs.empty() ? Vec3{} : step.known.by_springs.angular[row];
         const Vec3 turned = step.known.velocity.angular[row] - 0.5 * by_springs;
         half_way_axis[row] = rotated(axis, time_step * (turned + 0.5 * collision));
@@ -29,8 +29,9 @@ void measure_collision_stress(const ResolvedStep& step, const SimulationSettings
     const std::vector<double>& gamma = step.solution.gamma;
     const auto distance = settings.brownian_correction ? ContactDistance::touching : ContactDistance::at_start;
     std::vector<Vec3> torque(step.solution.rods.size());
-    parallel_for(torque.size(),
-                 [&](std::size_t k) { torque[k] = cross(axis[step.solution.rods[k]], step.solution.forces[k].lever); });
+    parallel_for(torque.size(), [&](std::size_t k) {
+        torque[k] = cross(axis[step.solution.rods[k]], step.solution.forces[k].moment);
+    });
     const RodTorques torques = {step.solution.rods, torque};
     report.collision_virial = sum_of_pair_stresses(step.contacts, gamma, rods, axis, torques, distance);
     if (settings.collision_moments)
@@ -48,7 +49,7 @@ void measure_spring_stress(const ResolvedStep& step, double time_step, StepRepor
     parallel_for(step.solution.rods.size(), [&](std::size_t k) {
         const std::uint32_t row = step.solution.rods[k];
         by_forces.linear[row] += step.solution.velocities[k].centre;
-        by_forces.angular[row] += cross(rods.axis[row], step.solution.velocities[k].turning);
+        by_forces.angular[row] += cross(rods.axis[row], step.solution.velocities[k].axis_rate);
     });
     Configuration half_way;
     half_way.resize(rods.size());

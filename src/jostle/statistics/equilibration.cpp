@@ -25,18 +25,18 @@ Equilibration detect_equilibration(std::span<const double> series) {
     const std::size_t left_out = series.size() - blocks.size() * block_length;
     const std::size_t half = blocks.size() / 2;
     std::size_t best = 0;
-    double most_samples = 0.0;
+    double max_samples = 0.0;
     for (std::size_t k = 0; k <= intervals; ++k) {
         const std::size_t origin = k * half / intervals;
         if (k > 0 && origin == (k - 1) * half / intervals) continue;  // a short series has fewer origins
         const double samples = effective_samples(std::span(blocks).subspan(origin));
-        if (samples > most_samples) {
-            most_samples = samples;
+        if (samples > max_samples) {
+            max_samples = samples;
             best = origin;
         }
     }
     const std::size_t start = best == 0 ? 0 : left_out + best * block_length;
-    const bool settled = 5 * best <= 2 * blocks.size() && most_samples >= least_effective_samples;
+    const bool settled = 5 * best <= 2 * blocks.size() && max_samples >= least_effective_samples;
     return {start, settled};
 }
 

@@ -15,9 +15,9 @@ namespace jostle {
 namespace {
 
 constexpr double window_in_correlation_times = 3.0;
-constexpr std::size_t largest_lag = 128;               // longer windows are found on a coarser level
-constexpr std::size_t fewest_blocks = 16;              // of the coarsest level
-constexpr std::size_t most_blocks_for_a_drift = 1023;  // so that a search for a drift costs no more than a few sums
+constexpr std::size_t largest_lag = 128;              // longer windows are found on a coarser level
+constexpr std::size_t fewest_blocks = 16;             // of the coarsest level
+constexpr std::size_t max_blocks_for_a_drift = 1023;  // so that a search for a drift costs no more than a few sums
 
 struct MeanError {
     double squared_error = 0.0;  // variance of the mean
@@ -135,7 +135,7 @@ Average average(std::span<const double> series) {
 
 double correlation_time(std::span<const std::vector<double>> columns) {
     require_columns(columns);
-    const std::size_t block_length = columns[0].size() / most_blocks_for_a_drift + 1;
+    const std::size_t block_length = columns[0].size() / max_blocks_for_a_drift + 1;
     std::vector<std::vector<double>> blocks;
     for (const auto& column : columns) {
         blocks.push_back(block_means(column, block_length));

@@ -14,7 +14,7 @@ namespace jostle {
 
 namespace {
 
-constexpr double most_cells = 1e6;
+constexpr double max_cells = 1e6;
 
 [[noreturn]] void refuse_spacing(double spacing, std::string problem, std::string allowed) {
     throw InputError({.key = "output.field_spacing",
@@ -49,8 +49,8 @@ StressField::StressField(const Box& box, double spacing) : box_(box) {
     for (int k = 0; k < 3; ++k) {
         const double count = std::max(1.0, std::floor(box.edges[k] / spacing * (1.0 + 1e-12)));
         total *= count;
-        if (total > most_cells)
-            refuse_spacing(spacing, "makes too many cells", fmt::format("at most {:.0f} cells in all", most_cells));
+        if (total > max_cells)
+            refuse_spacing(spacing, "makes too many cells", fmt::format("at most {:.0f} cells in all", max_cells));
         cells_[static_cast<std::size_t>(k)] = static_cast<std::size_t>(count);
         edges_[k] = box.edges[k] / count;
     }
@@ -175,7 +175,7 @@ StressField StressField::from_named(const NamedNumbers& numbers) {
     double total = 1.0;
     for (int k = 0; k < 3; ++k) {
         const double count = counts[static_cast<std::size_t>(k)];
-        require(count >= 1.0 && count == std::floor(count) && (total *= count) <= most_cells);
+        require(count >= 1.0 && count == std::floor(count) && (total *= count) <= max_cells);
         field.cells_[static_cast<std::size_t>(k)] = static_cast<std::size_t>(count);
         field.edges_[k] = box.edges[k] / count;
     }

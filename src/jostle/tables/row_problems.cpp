@@ -8,7 +8,7 @@
 namespace jostle {
 
 namespace {
-constexpr std::size_t most_told = 20;
+constexpr std::size_t max_told = 20;
 constexpr std::size_t longest_problem = 1000;  // bytes
 }  // namespace
 
@@ -27,12 +27,12 @@ void RowProblems::throw_if_any() const {
     std::size_t count = 0;
     for (const auto& [row, problems] : of_row_)
         for (const std::string& problem : problems) {
-            if (++count > most_told) continue;
+            if (++count > max_told) continue;
             const std::string place =
                 row < line.size() ? fmt::format("{}:{}", path_, line[row]) : fmt::format("{}: row {}", path_, row + 1);
             told += fmt::format("{}{}: {}", told.empty() ? "" : "\n", place, problem);
         }
-    if (count > most_told) told += fmt::format("\n{}: {} more problems", path_, count - most_told);
+    if (count > max_told) told += fmt::format("\n{}: {} more problems", path_, count - max_told);
     if (count > 0) throw InputError({.problem = told});
 }
 

@@ -40,7 +40,7 @@ Velocities random_velocities(std::size_t count, std::mt19937_64& engine) {
 }
 
 /// U and W = Omega x axis of the rods with contacts.
-std::vector<ContactVelocity> of_places(const Velocities& velocities, const ContactMatrix& D, const Rods& rods) {
+std::vector<ContactVelocity> of_local_rods(const Velocities& velocities, const ContactMatrix& D, const Rods& rods) {
     std::vector<ContactVelocity> result;
     for (const std::uint32_t row : D.rods())
         result.push_back({velocities.linear[row], cross(velocities.angular[row], rods.axis[row])});
@@ -57,7 +57,7 @@ TEST_CASE("D^T is the gradient of the gaps: finite differences") {
         const Velocities velocities = random_velocities(assembly.rods.size(), engine);
         const ContactMatrix D(assembly.contacts, assembly.rods.id);
         std::vector<double> rates(assembly.contacts.size());
-        D.apply_transpose(of_places(velocities, D, assembly.rods), rates);
+        D.apply_transpose(of_local_rods(velocities, D, assembly.rods), rates);
 
         const double h = 1e-6;
         const auto gap_after = [&](std::size_t l, double time) {
@@ -91,7 +91,7 @@ TEST_CASE("D and D^T are transposes, also where a rod meets its own image") {
         for (double& value : gamma) value = normal(engine);
         const Velocities velocities = random_velocities(assembly.rods.size(), engine);
         std::vector<ContactForce> forces(D.rods().size());
-        const std::vector<ContactVelocity> moving = of_places(velocities, D, assembly.rods);
+        const std::vector<ContactVelocity> moving = of_local_rods(velocities, D, assembly.rods);
         D.apply(gamma, forces);
         D.apply_transpose(moving, rates);
         double by_contacts = 0.0, by_rods = 0.0, by_torques = 0.0;
@@ -99,8 +99,8 @@ TEST_CASE("D and D^T are transposes, also where a rod meets its own image") {
         for (std::size_t k = 0; k < forces.size(); ++k) {
             const std::uint32_t row = D.rods()[k];
             const double centre = dot(forces[k].force, moving[k].centre);
-            by_rods += centre + dot(forces[k].lever, moving[k].turning);
-            by_torques += centre + dot(cross(assembly.rods.axis[row], forces[k].lever), velocities.angular[row]);
+            by_rods += centre + dot(forces[k].moment, moving[k].axis_rate);
+            by_torques += centre + dot(cross(assembly.rods.axis[row], forces[k].moment), velocities.angular[row]);
         }
         CHECK(by_torques == doctest::Approx(by_rods).epsilon(1e-12));
         CHECK(by_contacts == doctest::Approx(by_rods).epsilon(1e-12));
@@ -118,16 +118,16 @@ TEST_CASE("contact forces have no net force") {
     CHECK(norm(net) < 1e-12 * static_cast<double>(gamma.size()));
 }
 
-TEST_CASE("rods without contacts have no place, unless all rods are asked for") {
+TEST_CASE("rods without contacts have no local index, unless all rods are asked for") {
     Rods rods;
     for (std::uint64_t k = 0; k < 5; ++k) rods.push_back(k, {3.0 * static_cast<double>(k), 0, 0}, {0, 0, 1}, 1.0, 1.0);
     Contacts contacts;
     contacts.push_back({1, 3, {1, 0, 0}, 0.1, 0.2, 0.0, 0.0}, {0, 0, 0}, ContactFeature::nearest);
     const ContactMatrix some(contacts, rods.id);
     CHECK(std::vector<std::uint32_t>(some.rods().begin(), some.rods().end()) == std::vector<std::uint32_t>{1, 3});
-    CHECK(some.ends()[0].i == 0);
-    CHECK(some.ends()[0].j == 1);
+    CHECK(some.rod_pairs()[0].i == 0);
+    CHECK(some.rod_pairs()[0].j == 1);
     const ContactMatrix all(contacts, rods.id, ContactMatrix::Include::all_rods);
     CHECK(all.rods().size() == 5);
-    CHECK(all.ends()[0].j == 3);
+    CHECK(all.rod_pairs()[0].j == 3);
 }

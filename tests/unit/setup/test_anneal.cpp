@@ -78,7 +78,7 @@ TEST_CASE("annealing tells what it does, and ends settled or at its limit") {
     const Annealing& last = told.back();
     CHECK(last.was_needed());
     CHECK(last.steps >= 600);
-    CHECK((last.settled || last.steps >= most_annealing_steps));
+    CHECK((last.settled || last.steps >= max_annealing_steps));
     CHECK(last.Z > 4.0);
     CHECK(last.Z < 12.0);
     CHECK(last.order > 0.0);

@@ -1,4 +1,4 @@
-#include "jostle/contact_problem/pair_problem.hpp"
+#include "jostle/contact_problem/block_problem.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -20,7 +20,7 @@ constexpr double dependent = 1e-12;
 
 /// gamma of the points of a set that makes their gap velocities vanish (Cramer's rule). None where one would be
 /// negative, or where the points are nearly dependent. `without`: gap velocities without forces of the pair.
-std::optional<Points> forces_of(PointSet set, const PairMatrix& pair, const Points& without) {
+std::optional<Points> forces_of(PointSet set, const BlockMatrix& pair, const Points& without) {
     const auto& K = pair.matrix;
     Points gamma{};
     if (set == 0) return gamma;
@@ -47,14 +47,14 @@ std::optional<Points> forces_of(PointSet set, const PairMatrix& pair, const Poin
 }
 
 /// The gap velocity of point a.
-double gap_velocity(std::uint32_t a, const PairMatrix& pair, const Points& without, const Points& gamma) {
+double gap_velocity(std::uint32_t a, const BlockMatrix& pair, const Points& without, const Points& gamma) {
     double velocity = without[a];
     for (std::uint32_t c = 0; c < pair.count; ++c) velocity += pair.matrix[a][c] * gamma[c];
     return velocity;
 }
 
 /// max |min(A_aa gamma_a, velocity_a)| over the points of a pair.
-double violation(const PairMatrix& pair, const Points& without, const Points& gamma) {
+double violation(const BlockMatrix& pair, const Points& without, const Points& gamma) {
     double largest = 0.0;
     for (std::uint32_t a = 0; a < pair.count; ++a)
         largest =
@@ -64,7 +64,7 @@ double violation(const PairMatrix& pair, const Points& without, const Points& ga
 
 }  // namespace
 
-void solve_own_problem(const PairMatrix& pair, const Points& velocity, Points& target) {
+void solve_block_problem(const BlockMatrix& pair, const Points& velocity, Points& target) {
     Points without{};
     PointSet pushing = 0;
     for (std::uint32_t a = 0; a < pair.count; ++a) {

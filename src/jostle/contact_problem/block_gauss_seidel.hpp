@@ -6,29 +6,29 @@
 #include <utility>
 #include <vector>
 
+#include "jostle/contact_problem/contact_blocks.hpp"
 #include "jostle/contact_problem/contact_problem.hpp"
 #include "jostle/contact_problem/pair_colours.hpp"
-#include "jostle/contact_problem/swept_contacts.hpp"
 
 namespace jostle {
 
 /// What a sweep passes over.
-enum class SweepOver { all, awake };
+enum class SweepOver { all, active };
 
 /// Keeps the velocities of the rods, V = M D gamma, while contacts are solved one after the other.
 ///
-/// Pairs are coloured, so that no two of a colour share a rod. A sweep over all finds those that are awake: that push
+/// Pairs are coloured, so that no two of a colour share a rod. A sweep over all finds those that are active: that push
 /// or may soon, and, where sweeps begin from the forces of the last step, that still change by more than a part of the
 /// tolerance, or have a rod that does. A crowd is then solved where it moves, not where it has come to rest. Real is
 /// what velocities and single contacts are stored in; pairs, whose matrices may be nearly singular, are in double.
 template <class Real>
-class Sweeper {
+class BlockGaussSeidel {
 public:
     /// Starts from `start`, as many numbers as there are contacts; contacts that come later start from what is then
     /// there. Holds references.
-    Sweeper(const ContactProblem& problem, double tolerance, const std::vector<double>& start);
+    BlockGaussSeidel(const ContactProblem& problem, double tolerance, const std::vector<double>& start);
 
-    /// Takes in the contacts that the problem has grown by; awake are those whose gap closes without forces.
+    /// Takes in the contacts that the problem has grown by; active are those whose gap closes without forces.
     void extend();
 
     /// One pass; returns the largest change of a gap velocity by a contact's own force.
@@ -41,50 +41,50 @@ public:
     void refresh(ContactSolution& solution);
 
 private:
-    /// Contacts of one kind and colour. Their order does not matter to the result: those awake come first in each block
-    /// of as many as stay in a near cache with their rods' velocities.
+    /// Contacts of one kind and colour. Their order does not matter to the result: those active come first in each
+    /// block of as many as stay in a near cache with their rods' velocities.
     template <class Item>
     struct Group {
         static constexpr std::size_t block_size = 128;
         std::vector<Item> items;
-        std::vector<std::uint8_t> awake;  ///< (blocks) how many are
-        std::size_t all_awake = 0;
+        std::vector<std::uint8_t> active;  ///< (blocks) how many are
+        std::size_t all_active = 0;
 
         std::span<Item> block(std::size_t number) {
             const std::size_t begin = number * block_size;
             return std::span(items).subspan(begin, std::min(block_size, items.size() - begin));
         }
 
-        /// Brings the items from `first` on that are awake to the front of their blocks; of those before, as many are
-        /// as `awake` tells.
+        /// Brings the items from `first` on that are active to the front of their blocks; of those before, as many are
+        /// as `active` tells.
         template <class IsAwake>
-        void sort_out(std::size_t first, IsAwake&& is_awake);
+        void sort_out(std::size_t first, IsAwake&& is_active);
     };
     struct Colour {
-        Group<SweptContact<Real>> singles;
-        Group<SweptPair> pairs;
+        Group<ScalarBlock<Real>> singles;
+        Group<CoupledBlock> pairs;
     };
 
-    SweptContact<Real> contact_of(const ContactPair& pair) const;
-    SweptPair pair_of(const ContactPair& pair) const;
+    ScalarBlock<Real> contact_of(const ContactPair& pair) const;
+    CoupledBlock pair_of(const ContactPair& pair) const;
     template <class Item, class MakeItem>
     static void append(Group<Item>& group, std::span<const ContactPair> pairs, MakeItem&& item_of);
     template <class Item>
-    void find_awake(Group<Item>& group);
+    void find_active(Group<Item>& group);
     template <class Body>
     void for_all_forces(Body&& body);
 
     const DelassusOperator& matrix_;
     const std::vector<double>& b_;
     const std::vector<double>& start_;
-    double drowsy_velocity_, quiet_velocity_;
-    std::vector<Wide<Real>> velocities_;  ///< (places) V, kept up to date
-    std::vector<float> stirred_;  ///< (places) the largest change in the last sweep over all; empty if not asked for
+    double activation_threshold_, convergence_threshold_;
+    std::vector<SpatialVector<Real>> velocities_;  ///< (n) V, kept up to date
+    std::vector<float> last_change_;  ///< (n) the largest change in the last sweep over all; empty if not asked for
     PairColours pair_colours_;
     std::vector<Colour> colours_;
 };
 
-extern template class Sweeper<float>;
-extern template class Sweeper<double>;
+extern template class BlockGaussSeidel<float>;
+extern template class BlockGaussSeidel<double>;
 
 }  // namespace jostle

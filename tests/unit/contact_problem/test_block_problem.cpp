@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "jostle/contact_problem/pair_problem.hpp"
+#include "jostle/contact_problem/block_problem.hpp"
 
 using namespace jostle;
 
@@ -12,7 +12,7 @@ namespace {
 
 /// A pair of `count` points with the matrix C^T C + ridge of random columns of `rank` numbers.
 struct RandomPair {
-    PairMatrix pair;
+    BlockMatrix pair;
     Points velocity{}, gamma{};  ///< gap velocities with all forces, and the forces of the pair among them
 
     RandomPair(std::uint32_t count, int rank, double ridge, std::mt19937& random) {
@@ -60,7 +60,7 @@ TEST_CASE("forces of a pair's points solve its own contact problem") {
         for (int k = 0; k < tries; ++k) {
             const RandomPair example(count, 6, 0.0, random);
             Points target = example.gamma;
-            solve_own_problem(example.pair, example.velocity, target);
+            solve_block_problem(example.pair, example.velocity, target);
             worst = std::max(worst, example.violation(target));
             const auto pushing = std::count_if(target.begin(), target.end(), [](double force) { return force > 0.0; });
             some_push += pushing > 0 ? 1 : 0;
@@ -77,14 +77,14 @@ TEST_CASE("the solution does not depend on the forces that one begins with") {
     for (int k = 0; k < 500; ++k) {
         RandomPair example(3, 6, 0.1, random);
         Points target = example.gamma;
-        solve_own_problem(example.pair, example.velocity, target);
+        solve_block_problem(example.pair, example.velocity, target);
         // The same problem, told from other forces of the pair.
         RandomPair other = example;
         for (std::uint32_t a = 0; a < 3; ++a)
             for (std::uint32_t c = 0; c < 3; ++c) other.velocity[a] -= example.pair.matrix[a][c] * example.gamma[c];
         other.gamma = {};
         Points again{};
-        solve_own_problem(other.pair, other.velocity, again);
+        solve_block_problem(other.pair, other.velocity, again);
         for (std::size_t a = 0; a < 3; ++a) CHECK(again[a] == doctest::Approx(target[a]).epsilon(1e-9));
     }
 }
@@ -95,7 +95,7 @@ TEST_CASE("three dependent points push as two of them do") {
     for (int k = 0; k < 2000; ++k) {
         const RandomPair example(3, 2, 0.0, random);
         Points target = example.gamma;
-        solve_own_problem(example.pair, example.velocity, target);
+        solve_block_problem(example.pair, example.velocity, target);
         worst = std::max(worst, example.violation(target));
         CHECK(std::min({target[0], target[1], target[2]}) == 0.0);
     }
@@ -103,11 +103,11 @@ TEST_CASE("three dependent points push as two of them do") {
 }
 
 TEST_CASE("a gap that no force can open stays, and the other point pushes alone") {
-    PairMatrix pair;
+    BlockMatrix pair;
     pair.count = 2;
     pair.matrix = {{{0.0, 0.0, 0.0}, {0.0, 2.0, 0.0}, {}}};
     Points target{};
-    solve_own_problem(pair, {-1.0, -4.0, 0.0}, target);
+    solve_block_problem(pair, {-1.0, -4.0, 0.0}, target);
     CHECK(target[0] == 0.0);
     CHECK(target[1] == 2.0);
 }

@@ -1,4 +1,4 @@
-#include "jostle/contact_problem/sweeper.hpp"
+#include "jostle/contact_problem/block_gauss_seidel.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -9,36 +9,37 @@ namespace jostle {
 
 namespace {
 
-/// A contact without force takes part in the sweeps over those awake if its gap would open by less than this many
+/// A contact without force takes part in the sweeps over those active if its gap would open by less than this many
 /// tolerances.
-constexpr double drowsy = 100.0;
+constexpr double activation_tolerances = 100.0;
 /// Beginning warm, a contact takes part if it, or another of its rods, changes a gap by more than this part of the
 /// tolerance in a sweep.
-constexpr double quiet = 0.5;
+constexpr double convergence_tolerances = 0.5;
 
 /// Whether a new contact takes part from the first sweep on: pairs that touch at several points always do.
 template <class Real>
-bool awake_at_first(const SweptContact<Real>& contact) {
+bool active_at_first(const ScalarBlock<Real>& contact) {
     return contact.b < 0 || contact.gamma > 0;
 }
-bool awake_at_first(const SweptPair&) {
+bool active_at_first(const CoupledBlock&) {
     return true;
 }
 
 }  // namespace
 
 template <class Real>
-Sweeper<Real>::Sweeper(const ContactProblem& problem, double tolerance, const std::vector<double>& start)
+BlockGaussSeidel<Real>::BlockGaussSeidel(const ContactProblem& problem, double tolerance,
+                                         const std::vector<double>& start)
     : matrix_(problem.matrix()),
       b_(problem.constant()),
       start_(start),
-      drowsy_velocity_(drowsy * tolerance / problem.time_step()),
-      quiet_velocity_(problem.start().empty() ? 0.0 : quiet * tolerance / problem.time_step()) {
+      activation_threshold_(activation_tolerances * tolerance / problem.time_step()),
+      convergence_threshold_(problem.start().empty() ? 0.0 : convergence_tolerances * tolerance / problem.time_step()) {
     extend();
 }
 
 template <class Real>
-void Sweeper<Real>::extend() {
+void BlockGaussSeidel<Real>::extend() {
     velocities_.resize(matrix_.rods().size());
     const auto& new_pairs = pair_colours_.extend(matrix_.contact_matrix());
     colours_.resize(new_pairs.size());
@@ -53,17 +54,17 @@ void Sweeper<Real>::extend() {
 }
 
 template <class Real>
-double Sweeper<Real>::sweep(double omega, SweepOver over) {
+double BlockGaussSeidel<Real>::sweep(double omega, SweepOver over) {
     const bool all = over == SweepOver::all;
-    if (all && quiet_velocity_ > 0.0) stirred_.assign(velocities_.size(), 0.0F);
-    const Places<Real> places{matrix_.rods().data(), velocities_.data(),
-                              all && quiet_velocity_ > 0.0 ? stirred_.data() : nullptr};
+    if (all && convergence_threshold_ > 0.0) last_change_.assign(velocities_.size(), 0.0F);
+    const LocalRods<Real> local_rods{matrix_.rods().data(), velocities_.data(),
+                                     all && convergence_threshold_ > 0.0 ? last_change_.data() : nullptr};
     double largest = 0.0;
     const auto pass = [&](auto& group) {
-        const std::size_t items = all ? group.items.size() : group.all_awake;
-        largest = std::max(largest, parallel_max_of_blocks(group.awake.size(), items, [&](std::size_t number) {
+        const std::size_t items = all ? group.items.size() : group.all_active;
+        largest = std::max(largest, parallel_max_of_blocks(group.active.size(), items, [&](std::size_t number) {
                                const auto block = group.block(number);
-                               return sweep_over(all ? block : block.first(group.awake[number]), omega, places);
+                               return sweep_over(all ? block : block.first(group.active[number]), omega, local_rods);
                            }));
     };
     for (Colour& colour : colours_) {
@@ -72,81 +73,81 @@ double Sweeper<Real>::sweep(double omega, SweepOver over) {
     }
     if (all) {
         for (Colour& colour : colours_) {
-            find_awake(colour.singles);
-            find_awake(colour.pairs);
+            find_active(colour.singles);
+            find_active(colour.pairs);
         }
     }
     return largest;
 }
 
 template <class Real>
-void Sweeper<Real>::read_velocities(std::span<ContactVelocity> velocities) const {
-    parallel_for(velocities.size(), [&](std::size_t place) { velocities[place] = velocities_[place].velocity(); });
+void BlockGaussSeidel<Real>::read_velocities(std::span<ContactVelocity> velocities) const {
+    parallel_for(velocities.size(), [&](std::size_t local) { velocities[local] = velocities_[local].velocity(); });
 }
 
 template <class Real>
-void Sweeper<Real>::refresh(ContactSolution& solution) {
-    parallel_for(solution.forces.size(), [&](std::size_t place) { solution.forces[place] = {}; });
+void BlockGaussSeidel<Real>::refresh(ContactSolution& solution) {
+    parallel_for(solution.forces.size(), [&](std::size_t local) { solution.forces[local] = {}; });
     const ContactMatrix& contact_matrix = matrix_.contact_matrix();
     for_all_forces([&](std::uint32_t l, double gamma) {
         solution.gamma[l] = gamma;
         if (gamma == 0.0) return;
-        const auto [i, j] = contact_matrix.ends()[l];
-        add_push(gamma, contact_matrix.contacts().contact[l], solution.forces[i], solution.forces[j]);
+        const auto [i, j] = contact_matrix.rod_pairs()[l];
+        add_contact_force(gamma, contact_matrix.contacts().contact[l], solution.forces[i], solution.forces[j]);
     });
-    parallel_for(solution.forces.size(), [&](std::size_t place) {
-        const ContactForce& force = solution.forces[place];
-        ContactVelocity& velocity = solution.velocities[place];
-        velocity = velocity_of(matrix_.rods()[place], force.force, force.lever);
-        velocities_[place] = Wide<Real>(velocity);
+    parallel_for(solution.forces.size(), [&](std::size_t local) {
+        const ContactForce& force = solution.forces[local];
+        ContactVelocity& velocity = solution.velocities[local];
+        velocity = velocity_of(matrix_.rods()[local], force.force, force.moment);
+        velocities_[local] = SpatialVector<Real>(velocity);
     });
 }
 
 template <class Real>
 template <class Item, class MakeItem>
-void Sweeper<Real>::append(Group<Item>& group, std::span<const ContactPair> pairs, MakeItem&& item_of) {
+void BlockGaussSeidel<Real>::append(Group<Item>& group, std::span<const ContactPair> pairs, MakeItem&& item_of) {
     const std::size_t before = group.items.size();
     group.items.resize(before + pairs.size());
     parallel_for(pairs.size(), [&](std::size_t n) { group.items[before + n] = item_of(pairs[n]); });
-    group.sort_out(before, [](const Item& item) { return awake_at_first(item); });
+    group.sort_out(before, [](const Item& item) { return active_at_first(item); });
 }
 
 template <class Real>
 template <class Item>
 template <class IsAwake>
-void Sweeper<Real>::Group<Item>::sort_out(std::size_t first, IsAwake&& is_awake) {
+void BlockGaussSeidel<Real>::Group<Item>::sort_out(std::size_t first, IsAwake&& is_active) {
     const std::size_t known_blocks = first / block_size;  // with nothing new
-    awake.resize((items.size() + block_size - 1) / block_size, 0);
+    active.resize((items.size() + block_size - 1) / block_size, 0);
     parallel_for_blocks(items.size() - known_blocks * block_size, block_size,
                         [&](std::size_t new_block, std::size_t, std::size_t) {
                             const std::size_t number = known_blocks + new_block, begin = number * block_size;
                             const auto in_block = block(number);
                             std::size_t k = first > begin ? first - begin : 0;
-                            std::size_t front = k > 0 ? awake[number] : 0;
+                            std::size_t front = k > 0 ? active[number] : 0;
                             for (; k < in_block.size(); ++k) {
-                                if (!is_awake(in_block[k])) continue;
+                                if (!is_active(in_block[k])) continue;
                                 if (front != k) std::swap(in_block[front], in_block[k]);
                                 ++front;
                             }
-                            awake[number] = static_cast<std::uint8_t>(front);
+                            active[number] = static_cast<std::uint8_t>(front);
                         });
-    all_awake = std::accumulate(awake.begin(), awake.end(), std::size_t{0});
+    all_active = std::accumulate(active.begin(), active.end(), std::size_t{0});
 }
 
 template <class Real>
-SweptContact<Real> Sweeper<Real>::contact_of(const ContactPair& pair) const {
+ScalarBlock<Real> BlockGaussSeidel<Real>::contact_of(const ContactPair& pair) const {
     const auto [i, j, l, count] = pair;
     ContactForce on_i, on_j;
-    add_push(1.0, matrix_.contact_matrix().contacts().contact[l], on_i, on_j);
-    const auto answer = [&](std::uint32_t place, const ContactForce& to) {
-        return Wide<Real>(velocity_of(matrix_.rods()[place], to.force, to.lever));
+    add_contact_force(1.0, matrix_.contact_matrix().contacts().contact[l], on_i, on_j);
+    const auto answer = [&](std::uint32_t local, const ContactForce& to) {
+        return SpatialVector<Real>(velocity_of(matrix_.rods()[local], to.force, to.moment));
     };
     const double diagonal = matrix_.diagonal()[l];
-    SweptContact<Real> contact;
-    contact.column_i = Wide<Real>(on_i);
-    contact.column_j = Wide<Real>(on_j);
-    contact.answer_i = answer(i, on_i);
-    contact.answer_j = answer(j, on_j);
+    ScalarBlock<Real> contact;
+    contact.jacobian_i = SpatialVector<Real>(on_i);
+    contact.jacobian_j = SpatialVector<Real>(on_j);
+    contact.response_i = answer(i, on_i);
+    contact.response_j = answer(j, on_j);
     contact.b = static_cast<Real>(b_[l]);
     contact.gamma = static_cast<Real>(start_[l]);
     contact.compliance = static_cast<Real>(matrix_.compliance(l));
@@ -159,9 +160,9 @@ SweptContact<Real> Sweeper<Real>::contact_of(const ContactPair& pair) const {
 }
 
 template <class Real>
-SweptPair Sweeper<Real>::pair_of(const ContactPair& touching) const {
+CoupledBlock BlockGaussSeidel<Real>::pair_of(const ContactPair& touching) const {
     const auto [i, j, first, count] = touching;
-    SweptPair pair;
+    CoupledBlock pair;
     pair.count = count;
     pair.i = i;
     pair.j = j;
@@ -173,10 +174,11 @@ SweptPair Sweeper<Real>::pair_of(const ContactPair& touching) const {
     }
     for (std::uint32_t c = 0; c < count; ++c) {
         ContactForce on_i, on_j;
-        add_push(1.0, pair.points[c], on_i, on_j);
-        if (i == j) on_i = on_j = {on_i.force + on_j.force, on_i.lever + on_j.lever};  // own image: one rod feels both
-        const ContactVelocity of_i = velocity_of(matrix_.rods()[i], on_i.force, on_i.lever);
-        const ContactVelocity of_j = velocity_of(matrix_.rods()[j], on_j.force, on_j.lever);
+        add_contact_force(1.0, pair.points[c], on_i, on_j);
+        if (i == j)
+            on_i = on_j = {on_i.force + on_j.force, on_i.moment + on_j.moment};  // own image: one rod feels both
+        const ContactVelocity of_i = velocity_of(matrix_.rods()[i], on_i.force, on_i.moment);
+        const ContactVelocity of_j = velocity_of(matrix_.rods()[j], on_j.force, on_j.moment);
         for (std::uint32_t a = 0; a < count; ++a) pair.matrix[a][c] = gap_rate(pair.points[a], of_i, of_j);
         pair.matrix[c][c] += pair.points[c].compliance;
     }
@@ -185,18 +187,20 @@ SweptPair Sweeper<Real>::pair_of(const ContactPair& touching) const {
 
 template <class Real>
 template <class Item>
-void Sweeper<Real>::find_awake(Group<Item>& group) {
+void BlockGaussSeidel<Real>::find_active(Group<Item>& group) {
     group.sort_out(0, [&](const Item& item) {
-        const auto moves = [&](std::uint32_t place) { return static_cast<double>(stirred_[place]) > quiet_velocity_; };
-        if (!stirred_.empty() && !moves(item.i) && !moves(item.j)) return false;
-        return may_push(item, velocities_.data(), drowsy_velocity_);
+        const auto moves = [&](std::uint32_t local) {
+            return static_cast<double>(last_change_[local]) > convergence_threshold_;
+        };
+        if (!last_change_.empty() && !moves(item.i) && !moves(item.j)) return false;
+        return may_push(item, velocities_.data(), activation_threshold_);
     });
 }
 
 /// Calls body(number, force) for all contacts; those of a colour in parallel.
 template <class Real>
 template <class Body>
-void Sweeper<Real>::for_all_forces(Body&& body) {
+void BlockGaussSeidel<Real>::for_all_forces(Body&& body) {
     const auto pass = [&](auto items) {
         parallel_for(items.size(), [&](std::size_t k) { for_forces(items[k], body); });
     };
@@ -206,7 +210,7 @@ void Sweeper<Real>::for_all_forces(Body&& body) {
     }
 }
 
-template class Sweeper<float>;
-template class Sweeper<double>;
+template class BlockGaussSeidel<float>;
+template class BlockGaussSeidel<double>;
 
 }  // namespace jostle

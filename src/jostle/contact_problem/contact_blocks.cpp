@@ -1,0 +1,97 @@
+#include "jostle/contact_problem/contact_blocks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "jostle/math/vectorised.hpp"
+
+namespace jostle {
+
+namespace {
+
+/// The largest factor up to omega that keeps all forces of the pair >= 0. Clipping them one by one instead could raise
+/// the energy where they are nearly dependent, and the sweeps would not end.
+double feasible_relaxation(const CoupledBlock& pair, const Points& target, double omega) {
+    double factor = omega;
+    for (std::uint32_t a = 0; a < pair.count; ++a) {
+        const double force = pair.points[a].gamma;
+        if (target[a] < force) factor = std::min(factor, force / (force - target[a]));
+    }
+    return factor;
+}
+
+/// Each solves its own contact problem with all other forces as they are, over-relaxed; they return the change of the
+/// gap velocities by their own forces.
+template <class Real>
+double solve(ScalarBlock<Real>& contact, double omega, const LocalRods<Real>& local_rods) {
+    // Without a jump: which contacts push changes from sweep to sweep, and processors guess it badly.
+    const Real relaxed = contact.gamma - static_cast<Real>(omega) * contact.gap_velocity(local_rods.velocities) *
+                                             contact.inverse_diagonal;
+    const Real change = std::max(relaxed, Real{0}) - contact.gamma;
+    contact.push(change, local_rods.velocities);
+    return std::fabs(change) * contact.diagonal;
+}
+
+template <class Real>
+double solve(CoupledBlock& pair, double omega, const LocalRods<Real>& local_rods) {
+    const ContactVelocity i = local_rods.velocities[pair.i].velocity(), j = local_rods.velocities[pair.j].velocity();
+    Points velocity{}, target{};
+    bool idle = true;
+    for (std::uint32_t a = 0; a < pair.count; ++a) {
+        velocity[a] = pair.points[a].gap_velocity(i, j);
+        target[a] = pair.points[a].gamma;
+        idle = idle && target[a] == 0.0 && velocity[a] >= 0.0;
+    }
+    if (idle) return 0.0;
+    solve_block_problem(pair, velocity, target);
+    const double factor = feasible_relaxation(pair, target, omega);
+    double largest = 0.0;
+    ContactForce on_i, on_j;
+    for (std::uint32_t a = 0; a < pair.count; ++a) {
+        CoupledBlock::Point& point = pair.points[a];
+        const double change = std::max(point.gamma + factor * (target[a] - point.gamma), 0.0) - point.gamma;
+        point.gamma += change;
+        add_contact_force(change, point, on_i, on_j);
+        largest = std::max(largest, std::fabs(change) * pair.matrix[a][a]);
+    }
+    const auto push = [&local_rods](std::uint32_t local, const ContactForce& by) {
+        local_rods.velocities[local].lanes +=
+            SpatialVector<Real>(velocity_of(local_rods.rods[local], by.force, by.moment)).lanes;
+    };
+    push(pair.i, on_i);
+    push(pair.j, on_j);
+    return largest;
+}
+
+template <class Item, class Real>
+double solve_all(std::span<Item> items, double omega, const LocalRods<Real>& local_rods) {
+    double largest = 0.0;
+    for (Item& item : items) {
+        const double change = solve(item, omega, local_rods);
+        largest = std::max(largest, change);
+        if (local_rods.last_change == nullptr) continue;
+        for (const std::uint32_t local : {item.i, item.j})
+            local_rods.last_change[local] = std::max(local_rods.last_change[local], static_cast<float>(change));
+    }
+    return largest;
+}
+
+}  // namespace
+
+// One for each, as only plain functions can be compiled for several processors.
+JOSTLE_VECTORISED double sweep_over(std::span<ScalarBlock<float>> contacts, double omega,
+                                    const LocalRods<float>& local_rods) {
+    return solve_all(contacts, omega, local_rods);
+}
+JOSTLE_VECTORISED double sweep_over(std::span<ScalarBlock<double>> contacts, double omega,
+                                    const LocalRods<double>& local_rods) {
+    return solve_all(contacts, omega, local_rods);
+}
+JOSTLE_VECTORISED double sweep_over(std::span<CoupledBlock> pairs, double omega, const LocalRods<float>& local_rods) {
+    return solve_all(pairs, omega, local_rods);
+}
+JOSTLE_VECTORISED double sweep_over(std::span<CoupledBlock> pairs, double omega, const LocalRods<double>& local_rods) {
+    return solve_all(pairs, omega, local_rods);
+}
+
+}  // namespace jostle

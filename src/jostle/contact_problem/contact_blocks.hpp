@@ -1,0 +1,119 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "jostle/contact_problem/block_problem.hpp"
+#include "jostle/contact_problem/delassus_operator.hpp"
+
+namespace jostle {
+
+/// Centre and axis_rate of a rod's velocity, or force and moment on it, side by side: a vector register of the
+/// compiler's, which finds no vectors by itself in loops of eight.
+template <class Real>
+struct alignas(8 * sizeof(Real)) SpatialVector {
+    using Lanes [[gnu::vector_size(8 * sizeof(Real))]] = Real;
+    Lanes lanes{};  // 0-2 centre, 3-5 axis_rate, the rest 0
+
+    SpatialVector() = default;
+    explicit SpatialVector(const ContactForce& force) : SpatialVector(force.force, force.moment) {}
+    explicit SpatialVector(const ContactVelocity& velocity) : SpatialVector(velocity.centre, velocity.axis_rate) {}
+    ContactVelocity velocity() const { return {{lanes[0], lanes[1], lanes[2]}, {lanes[3], lanes[4], lanes[5]}}; }
+
+private:
+    SpatialVector(const Vec3& a, const Vec3& b)
+        : lanes{static_cast<Real>(a.x), static_cast<Real>(a.y), static_cast<Real>(a.z),
+                static_cast<Real>(b.x), static_cast<Real>(b.y), static_cast<Real>(b.z)} {}
+};
+
+/// a.b + c.d, in the same order for vector registers of any size.
+template <class Real>
+Real sum_of_products(const SpatialVector<Real>& a, const SpatialVector<Real>& b, const SpatialVector<Real>& c,
+                     const SpatialVector<Real>& d) {
+    const typename SpatialVector<Real>::Lanes t = a.lanes * b.lanes + c.lanes * d.lanes;
+    const auto u = __builtin_shufflevector(t, t, 0, 1, 2, 3) + __builtin_shufflevector(t, t, 4, 5, 6, 7);
+    return (u[0] + u[2]) + (u[1] + u[3]);
+}
+
+/// One contact as a sweep needs it: its column of D, and of M D, for each of its two rods.
+template <class Real>
+struct ScalarBlock {
+    SpatialVector<Real> jacobian_i, jacobian_j, response_i, response_j;
+    Real b = 0, gamma = 0;
+    Real compliance = 0;         ///< by which a force gives way, a part of A_ll
+    Real diagonal = 0;           ///< A_ll
+    Real inverse_diagonal = 0;   ///< 0 where no force can open the gap
+    std::uint32_t i = 0, j = 0;  ///< local indices
+    std::uint32_t number = 0;    ///< of the contact
+
+    Real gap_velocity(const SpatialVector<Real>* velocities) const {
+        return b + compliance * gamma + sum_of_products(jacobian_i, velocities[i], jacobian_j, velocities[j]);
+    }
+    void push(Real change, SpatialVector<Real>* velocities) {
+        gamma += change;
+        velocities[i].lanes += change * response_i.lanes;
+        velocities[j].lanes += change * response_j.lanes;
+    }
+};
+
+/// A pair that touches at two or three points, and their part of A. In few bytes: what depends on its rods is worked
+/// out anew, as sweeps over many such pairs take as long as it takes to read them.
+struct CoupledBlock : BlockMatrix {
+    struct Point {
+        Vec3 normal;
+        double arm_i, arm_j;
+        double b, gamma, compliance;  // as those of a ScalarBlock
+
+        double gap_velocity(const ContactVelocity& rod_i, const ContactVelocity& rod_j) const {
+            return b + compliance * gamma + gap_rate(*this, rod_i, rod_j);
+        }
+    };
+    std::uint32_t i, j;   ///< local indices
+    std::uint32_t first;  ///< number of the first contact; those of the others follow
+    std::array<Point, max_points> points;
+
+    std::span<const Point> touching() const { return std::span(points).first(count); }
+};
+
+/// Whether the contacts push, or a gap opens by less than `limit`.
+template <class Real>
+bool may_push(const ScalarBlock<Real>& contact, const SpatialVector<Real>* velocities, double limit) {
+    return contact.gamma > 0 || contact.gap_velocity(velocities) < limit;
+}
+template <class Real>
+bool may_push(const CoupledBlock& pair, const SpatialVector<Real>* velocities, double limit) {
+    const ContactVelocity i = velocities[pair.i].velocity(), j = velocities[pair.j].velocity();
+    return std::ranges::any_of(pair.touching(), [&](const CoupledBlock::Point& point) {
+        return point.gamma > 0.0 || point.gap_velocity(i, j) < limit;
+    });
+}
+
+/// Calls body(number of the contact, its force) for each.
+template <class Real, class Body>
+void for_forces(const ScalarBlock<Real>& contact, Body&& body) {
+    body(contact.number, contact.gamma);
+}
+template <class Body>
+void for_forces(const CoupledBlock& pair, Body&& body) {
+    for (std::uint32_t a = 0; a < pair.count; ++a) body(pair.first + a, pair.points[a].gamma);
+}
+
+/// What sweeps know of the rods with contacts.
+template <class Real>
+struct LocalRods {
+    const MobileRod* rods;
+    SpatialVector<Real>* velocities;
+    float* last_change;  ///< the largest change of a gap velocity by a contact of each, or null
+};
+
+/// Solves the contact problem of each in turn, over-relaxed, with all other forces as they are, and keeps the
+/// velocities up to date. Returns the largest change of a gap velocity by the contact's own force; raises `last_change`
+/// to it. No two may share a rod if their order is not to matter.
+double sweep_over(std::span<ScalarBlock<float>> contacts, double omega, const LocalRods<float>& local_rods);
+double sweep_over(std::span<ScalarBlock<double>> contacts, double omega, const LocalRods<double>& local_rods);
+double sweep_over(std::span<CoupledBlock> pairs, double omega, const LocalRods<float>& local_rods);
+double sweep_over(std::span<CoupledBlock> pairs, double omega, const LocalRods<double>& local_rods);
+
+}  // namespace jostle
