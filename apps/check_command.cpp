@@ -134,7 +134,7 @@ void print_clocks(const Scene& scene, const MobilityOperator& mobility, const Ro
     const FreeClocks clocks = free_clocks(scene, mobility, rods);
     if (scene.growth.rate > 0.0 || (clocks.rotation == 0.0 && clocks.diffusion == 0.0)) return;
     const double production = scene.time.production;
-    const double slowdown = rods_are_alike(scene) && scene.rods.start != StartKind::file
+    const double slowdown = rods_are_alike(scene) && !rods_are_given(scene)
                                 ? crowding_slowdown(phi, rods.length[0] / rods.diameter[0])
                                 : 1.0;
     std::string covered, needed;

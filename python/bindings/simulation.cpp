@@ -19,12 +19,20 @@ namespace jostle::python {
 
 namespace {
 
-Simulation at_the_start(const SceneInPython& scene) {
+Beginning at_the_start(const SceneInPython& scene) {
     validate(scene.scene);
-    Beginning beginning = beginning_of(scene.scene, scene.path, [](const Annealing&) {
+    return beginning_of(scene.scene, scene.path, [](const Annealing&) {
         if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     });
-    return assemble(scene.scene, std::move(beginning.state));
+}
+
+Beginning with_rods(const SceneInPython& scene, Rods rods) {
+    validate(scene.scene);
+    return beginning_of(scene.scene, std::move(rods));
+}
+
+Simulation assembled(const Scene& scene, Beginning beginning) {
+    return assemble(scene, std::move(beginning.state));
 }
 
 }  // namespace
@@ -47,8 +55,15 @@ private:
     SimulationInPython& owner_;
 };
 
-SimulationInPython::SimulationInPython(SceneInPython scene)
-    : scene_(std::move(scene)), simulation_(at_the_start(scene_)), measurement_(scene_.scene, simulation_) {}
+SimulationInPython::SimulationInPython(SceneInPython scene, Beginning beginning)
+    : scene_(std::move(scene)),
+      simulation_(assembled(scene_.scene, std::move(beginning))),
+      measurement_(scene_.scene, simulation_) {}
+
+SimulationInPython::SimulationInPython(SceneInPython scene) : SimulationInPython(scene, at_the_start(scene)) {}
+
+SimulationInPython::SimulationInPython(SceneInPython scene, Rods rods)
+    : SimulationInPython(scene, with_rods(scene, std::move(rods))) {}
 
 SimulationInPython::SimulationInPython(SceneInPython scene, Checkpoint checkpoint)
     : scene_(std::move(scene)),
@@ -248,6 +263,22 @@ std::unique_ptr<SimulationInPython> resumed(const std::string& folder) {
     return std::make_unique<SimulationInPython>(std::move(scene), std::move(*checkpoint));
 }
 
+/// From arrays: centre, axis (N, 3), length, diameter (N), and speed (N) or (0).
+std::unique_ptr<SimulationInPython> of_rods(const SceneInPython& scene, const Numbers& centre, const Numbers& axis,
+                                            const Numbers& length, const Numbers& diameter, const Numbers& speed) {
+    const auto centres = vectors_in(centre, "centre"), axes = vectors_in(axis, "axis");
+    const auto lengths = numbers_in(length, "length"), diameters = numbers_in(diameter, "diameter");
+    const auto speeds = numbers_in(speed, "speed");
+    for (const Numbers* other : {&axis, &length, &diameter})
+        if (other->shape(0) != centre.shape(0)) require_shape(*other, {centre.shape(0), -1}, "a row for each rod");
+    if (!speeds.empty()) require_shape(speed, {centre.shape(0)}, "speed");
+    Rods rods;
+    for (std::size_t k = 0; k < centres.size(); ++k)
+        rods.push_back(k, centres[k], normalised(axes[k]), lengths[k], diameters[k]);
+    rods.speed.assign(speeds.begin(), speeds.end());
+    return std::make_unique<SimulationInPython>(scene, std::move(rods));
+}
+
 py::object report_of(const SimulationInPython& self) {
     if (!self.report()) return py::none();
     const StepReport& report = *self.report();
@@ -309,6 +340,7 @@ void bind_simulation(py::module_& module) {
     py::class_<SimulationInPython>(module, "Simulation", py::custom_type_setup(let_collect))
         .def(py::init<SceneInPython>())
         .def_static("resume", &resumed)
+        .def_static("of_rods", &of_rods)
         .def("step", &SimulationInPython::step)
         .def("run", &SimulationInPython::run)
         .def("add_motion", &SimulationInPython::add_motion)

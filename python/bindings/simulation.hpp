@@ -7,6 +7,7 @@
 #include "jostle/measurement/measurement.hpp"
 #include "jostle/run_files/checkpoint.hpp"
 #include "jostle/run_files/trajectory_journal.hpp"
+#include "jostle/scene_file/rods_of_scene.hpp"
 #include "jostle/simulation/simulation.hpp"
 
 namespace jostle::python {
@@ -19,6 +20,8 @@ class SimulationInPython {
 public:
     explicit SimulationInPython(SceneInPython scene);
     SimulationInPython(SceneInPython scene, Checkpoint checkpoint);
+    /// Of rods that the caller has, ids 0, 1, 2, ...; the scene has start = "run".
+    SimulationInPython(SceneInPython scene, Rods rods);
 
     /// One step. Throws std::runtime_error where a step is under way, one has ended half way, or no rods are left. A
     /// step that fails is told by the report; where its contacts could not be resolved nothing has changed.
@@ -55,6 +58,7 @@ public:
     void clear() { functions_.clear(); }
 
 private:
+    SimulationInPython(SceneInPython scene, Beginning beginning);
     class Step;
     struct Recording {
         std::optional<TrajectoryJournal> journal;  ///< empty once it has ended

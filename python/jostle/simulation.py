@@ -12,6 +12,7 @@ from ._jostle import DiskError, refuse
 from .own_columns import OwnColumns
 from .recording import Recording
 from .scene import Scene
+from .start import core_with_rods
 from .stress import orientation_stress
 
 CONTACT = np.dtype([("id_i", np.uint64), ("id_j", np.uint64), ("image", np.int32, 3), ("force", float), ("gap", float),
@@ -74,6 +75,10 @@ class Simulation:
     ----------
     scene : Scene
         Is copied: later changes of it change nothing here.
+    rods : optional
+        Where they begin, in the place of `rods.start`: the folder of a run (its last state, to the last bit, with the swimmers' own
+        speeds), a trajectory file (H5MD, GSD; its last frame), a Frame, or a dict of arrays centre, axis (N, 3), length, diameter and, if
+        you like, speed (N), as for `jostle.analysis`. The box is that of the scene. A scene with springs takes a folder.
     motions : functions, or one function
         Motions of your own, beside those of the scene. `motion(rods, clock)` is called at every step with the rods
         before it, as `Simulation.rods` shows them, and returns velocities (N, 3), or velocities and angular velocities
@@ -104,10 +109,10 @@ class Simulation:
     ((60, 3), 20)
     """
 
-    def __init__(self, scene, motions=()):
+    def __init__(self, scene, motions=(), *, rods=None):
         if not isinstance(scene, Scene):
             refuse("scene", f"a {type(scene).__name__}", "is no scene", "a Scene, as Scene.from_toml gives it")
-        self._begin(_jostle.Simulation(scene._core), motions)
+        self._begin(_jostle.Simulation(scene._core) if rods is None else core_with_rods(scene, rods), motions)
 
     @classmethod
     def resume(cls, folder, motions=()):

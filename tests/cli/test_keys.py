@@ -26,7 +26,7 @@ def test_every_key_of_a_resolved_scene_is_listed(tmp_path):
 
 def test_listed_words_and_ends_are_those_that_the_scene_is_held_to(tmp_path):
     listed = keys(tmp_path)
-    assert listed["rods.start"]["words"] == ["random", "aligned", "lattice", "file"]
+    assert listed["rods.start"]["words"] == ["random", "aligned", "lattice", "file", "run"]
     assert listed["contact.overlap_limit"]["ends_included"] == [False, False]
     for key, beyond in (("solver.tolerance", listed["solver.tolerance"]["at_most"]),
                         ("rods.count", listed["rods.count"]["at_least"] - 1),

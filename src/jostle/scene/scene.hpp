@@ -12,7 +12,7 @@
 namespace jostle {
 
 enum class UnitSystem { reduced, micro };
-enum class StartKind { random, aligned, lattice, file };
+enum class StartKind { random, aligned, lattice, file, run };
 enum class MobilityModel { slender_body, finite_aspect_ratio, capsule };
 enum class ContactModel { hard, wca };
 enum class WarmStarts { automatic, always, never };
@@ -53,6 +53,8 @@ struct Scene {
         StartKind start = StartKind::random;
         Vec3 axis{1, 0, 0};  // direction of aligned and lattice starts
         std::string file;    // for start = "file"; relative to the scene's folder
+        std::string run{};   // for start = "run": the folder of a run, relative to the scene's folder ...
+        std::optional<std::uint64_t> frame{};  // ... and the number of its frame; "auto" (empty): its last state
         bool operator==(const RodsTable&) const = default;
     } rods;
 
@@ -127,5 +129,10 @@ struct Scene {
 
     bool operator==(const Scene&) const = default;
 };
+
+/// Whether the rods come from outside, and the scene tells only what they are measured by.
+inline bool rods_are_given(const Scene& scene) {
+    return scene.rods.start == StartKind::file || scene.rods.start == StartKind::run;
+}
 
 }  // namespace jostle

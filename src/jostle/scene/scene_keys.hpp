@@ -77,6 +77,8 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("rods", "start", scene.rods.start, Plain{});
     visit("rods", "axis", scene.rods.axis, Quantity{dim::none, {-Range::largest, Range::largest}});
     visit("rods", "file", scene.rods.file, Plain{});
+    visit("rods", "run", scene.rods.run, Plain{});
+    visit("rods", "frame", scene.rods.frame, Count{.automatic = true});
     visit("fluid", "viscosity", scene.fluid.viscosity, Quantity{dim::viscosity, positive});
     visit("fluid", "kT", scene.fluid.kT, Quantity{dim::energy, zero_or_positive});
     visit("mobility", "model", scene.mobility.model, Plain{});
@@ -136,7 +138,8 @@ constexpr auto words(StartKind) {
     return std::to_array<std::pair<std::string_view, StartKind>>({{"random", StartKind::random},
                                                                   {"aligned", StartKind::aligned},
                                                                   {"lattice", StartKind::lattice},
-                                                                  {"file", StartKind::file}});
+                                                                  {"file", StartKind::file},
+                                                                  {"run", StartKind::run}});
 }
 constexpr auto words(MobilityModel) {
     return std::to_array<std::pair<std::string_view, MobilityModel>>(

@@ -19,6 +19,13 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
         for (const char* key : {"rods.length_deviation", "rods.diameter_deviation"})
             unused.push_back(
                 {key, with + ": the file tells", "Give the file columns length and diameter, or remove it"});
+    if (start == StartKind::run)
+        for (const char* key : {"rods.length_deviation", "rods.diameter_deviation"})
+            unused.push_back({key, with + ": rods keep their sizes", "Remove it"});
+    if (start != StartKind::run)
+        for (const char* key : {"rods.run", "rods.frame"})
+            unused.push_back(
+                {key, with, fmt::format("Set start = \"run\", or remove {}", std::string_view(key).substr(5))});
     if (start != StartKind::file) unused.push_back({"rods.file", with, "Set start = \"file\", or remove file"});
     if (start != StartKind::aligned && start != StartKind::lattice)
         unused.push_back({"rods.axis", with, "Set start = \"aligned\", or remove axis"});
@@ -54,8 +61,8 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
                           "Set field_every, or remove it"});
     if (scene.springs.file.empty())
         unused.push_back({"springs.file", "names no file", "Name a CSV file of springs, or remove [springs]"});
-    if (start == StartKind::file && scene.rods.count == 0)
-        unused.push_back({"rods.count", with + ": the file tells", "Remove count"});
+    if (rods_are_given(scene) && scene.rods.count == 0)
+        unused.push_back({"rods.count", with + ", which tells it", "Remove count"});
     return unused;
 }
 

@@ -28,6 +28,9 @@ void check_start(const Scene& scene) {
     if (scene.rods.start == StartKind::file && scene.rods.file.empty())
         refuse("rods.file", "", "is missing: start = \"file\" reads the rods from a file", "the name of a file",
                "Add file = \"rods.csv\" under [rods]");
+    if (scene.rods.start == StartKind::run && scene.rods.run.empty())
+        refuse("rods.run", "", "is missing: start = \"run\" takes the rods of another run", "the folder of a run",
+               "Add run = \"rods.run\" under [rods]");
     if (norm(scene.rods.axis) == 0.0)
         refuse("rods.axis", text(scene.rods.axis), "has no direction", "a vector that is not zero", "Use [1, 0, 0]");
 }
@@ -94,7 +97,7 @@ void check_motion(const Scene& scene) {
         refuse("motion.tumble_time", text(*scene.motion.tumble_time),
                fmt::format("leaves rods no time to swim between tumbles: motion.tumble_rate = {}", rate),
                fmt::format("at most {}", rounded(longest)), "Lower tumble_time or tumble_rate");
-    if (!scene.time.step || scene.rods.start == StartKind::file) return;  // is looked at once there are rods
+    if (!scene.time.step || rods_are_given(scene)) return;  // is looked at once there are rods
     Rods one;
     one.push_back(0, {}, {1, 0, 0}, scene.rods.length, scene.rods.diameter);
     require_slow_swimmers(scene, one, *scene.time.step);
@@ -184,12 +187,12 @@ void validate(const Scene& scene) {
     together.look([&] { check_start(scene); });
     together.look([&] {
         check_box_given_once(scene);
-        if (scene.rods.start != StartKind::file) check_room(scene);
+        if (!rods_are_given(scene)) check_room(scene);
     });
     for (const auto check : {check_motion, check_mobility, check_springs, check_solver, check_time})
         together.look([&] { check(scene); });
     together.look([&] { validate_growth(scene, largest_diameter(scene)); });
-    if (scene.rods.start != StartKind::file)
+    if (!rods_are_given(scene))
         together.look([&] { validate_contact_range(scene, largest_length(scene) + largest_diameter(scene)); });
     together.refuse_any();
 }
@@ -233,7 +236,7 @@ void validate_growth(const Scene& scene, double largest_diameter) {
                         "{}, by",
                         largest_diameter),
             fmt::format("greater than {}", largest_diameter), "");
-    if (scene.rods.start != StartKind::file && !(growth.division_length > scene.rods.length))
+    if (!rods_are_given(scene) && !(growth.division_length > scene.rods.length))
         refuse("growth.division_length", text(growth.division_length),
                fmt::format("is not above rods.length = {}, at which cells start", scene.rods.length),
                fmt::format("greater than {}", scene.rods.length), "");

@@ -7,10 +7,10 @@ namespace jostle {
 /// Whether the values of a scene make sense, each alone and together; needs no file and allocates no rods.
 ///
 /// Checks ranges, the box against the rods (`validate_box`, close packing, what a random start can reach), the mobility
-/// model against L/D, and the times against each other. For start = "file" box, growth and contact.range are checked by
-/// `validate_box`, `validate_growth` and `validate_contact_range`, once the file is read. Throws InputError with key
-/// "table.name", value, allowed range and suggestion, and no place: of all keys that are wrong by themselves, else of
-/// all that do not go together.
+/// model against L/D, and the times against each other. For start = "file" and "run" box, growth and contact.range are
+/// checked by `validate_box`, `validate_growth` and `validate_contact_range`, once the file is read. Throws InputError
+/// with key "table.name", value, allowed range and suggestion, and no place: of all keys that are wrong by themselves,
+/// else of all that do not go together.
 void validate(const Scene& scene);
 
 /// Whether rods of `rods_volume` in all, none thicker than `largest_diameter`, can be in the box of the scene at all.

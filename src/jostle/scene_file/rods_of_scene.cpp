@@ -8,10 +8,12 @@
 #include "jostle/disk/durable_file.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/error/one_line.hpp"
+#include "jostle/run_files/checkpoint.hpp"
 #include "jostle/scene/scene_box.hpp"
 #include "jostle/scene/step_limits.hpp"
 #include "jostle/scene/validate_scene.hpp"
 #include "jostle/scene_file/rods_file.hpp"
+#include "jostle/scene_file/rods_of_run.hpp"
 #include "jostle/scene_file/springs_file.hpp"
 #include "jostle/setup/assemble.hpp"
 #include "jostle/setup/start.hpp"
@@ -82,23 +84,66 @@ void require_near(const Rods& rods, const Box& box, const std::string& file) {
 
 }  // namespace
 
-std::optional<Rods> rods_from_file(const Scene& scene, const std::filesystem::path& scene_path) {
-    if (scene.rods.start != StartKind::file) return std::nullopt;
-    const std::filesystem::path file = named_file("rods.file", scene.rods.file, scene_path);
-    Rods rods = read_rods(file.string(), scene.rods.length, scene.rods.diameter);
+namespace {
+
+/// Refuses rods that the scene does not fit, whoever gives them; `giver` in messages.
+void require_fit(const Scene& scene, const Rods& rods, const std::string& giver) {
     if (scene.rods.count != 0 && scene.rods.count != rods.size())
         throw InputError({.key = "rods.count",
                           .value = std::to_string(scene.rods.count),
-                          .problem = "the file " + file.string() + " holds " + std::to_string(rods.size()) + " rods",
-                          .suggestion = "Leave rods.count out to take all of the file"});
-    if (!rods.speed.empty()) require_swimming(scene, file.string());
+                          .problem = giver + " holds " + std::to_string(rods.size()) + " rods",
+                          .suggestion = "Leave rods.count out to take all of them"});
     const auto [thinnest, thickest] = std::minmax_element(rods.diameter.begin(), rods.diameter.end());
-    require_diameter(scene, file.string(), *thinnest, *thickest);
+    require_diameter(scene, giver, *thinnest, *thickest);
     validate_box(scene, total_volume(rods), *thickest);
     validate_growth(scene, *thickest);
     validate_contact_range(scene, longest_of(rods));
-    require_near(rods, box_of(scene, rods), file.string());
-    return rods;
+    require_near(rods, box_of(scene, rods), giver);
+}
+
+GivenRods given_by_run(const Scene& scene, const std::filesystem::path& scene_path) {
+    RodsOfRun of_run = rods_of_run(scene, scene_path);
+    require_fit(scene, of_run.rods, "the run " + (scene_path.parent_path() / scene.rods.run).string());
+    GivenRods given{std::move(of_run.rods), {}};
+    if (scene.springs.file.empty() || of_run.springs.empty()) return given;
+    Checkpoint known;
+    known.state.springs = std::move(of_run.springs);
+    try {  // are they those of the file?
+        require_same_springs(known, springs_from_file(scene, scene_path, given.rods), of_run.turned_round,
+                             springs_path(scene, scene_path));
+    } catch (const InputError&) {
+        return given;
+    }
+    if (of_run.turned_round && (scene.rods.frame || scene.motion.reversal_rate == 0.0))
+        throw InputError({.key = "springs.file",
+                          .value = "\"" + scene.springs.file + "\"",
+                          .problem =
+                              "rods turned round in that run, and springs hold them on sides that only its last state, "
+                              "and a run in which they still turn, tell",
+                          .suggestion = "Leave rods.frame out, and keep motion.reversal_rate"});
+    given.springs = std::move(known.state.springs);
+    const Box box = box_of(scene, given.rods);
+    for (std::size_t i = 0; i < given.rods.size(); ++i) box.wrap(given.rods.centre[i], given.rods.image[i]);
+    recount_images(given.springs, given.rods);
+    given.rods.image.assign(given.rods.size(), Image{0, 0, 0});
+    return given;
+}
+
+}  // namespace
+
+std::optional<GivenRods> given_rods(const Scene& scene, const std::filesystem::path& scene_path) {
+    if (scene.rods.start == StartKind::run) return given_by_run(scene, scene_path);
+    if (scene.rods.start != StartKind::file) return std::nullopt;
+    const std::filesystem::path file = named_file("rods.file", scene.rods.file, scene_path);
+    Rods rods = read_rods(file.string(), scene.rods.length, scene.rods.diameter);
+    if (!rods.speed.empty()) require_swimming(scene, file.string());
+    require_fit(scene, rods, "the file " + file.string());
+    return GivenRods{std::move(rods), {}};
+}
+
+std::optional<Rods> rods_from_file(const Scene& scene, const std::filesystem::path& scene_path) {
+    auto given = given_rods(scene, scene_path);
+    return given ? std::optional(std::move(given->rods)) : std::nullopt;
 }
 
 Box box_of(const Scene& scene, const std::optional<Rods>& rods) {
@@ -117,31 +162,50 @@ std::vector<Spring> springs_from_file(const Scene& scene, const std::filesystem:
     return read_springs(springs_path(scene, scene_path), rods.size(), [&](std::uint64_t id) { return length[id]; });
 }
 
-Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_path, const AnnealingWatch& watch) {
-    return in_scene_file(scene_path, [&] {
-        const auto from_file = rods_from_file(scene, scene_path);
-        const Box box = box_of(scene, from_file);
-        Beginning beginning = {{box, {}}};
-        Rods& rods = beginning.state.rods;
-        rods = make_start(scene, box, from_file, [&](const Annealing& now) {
-            beginning.annealing = now;
-            if (watch) watch(now);
-        });
-        const auto model = make_mobility(scene);
-        const auto mobility = model->at(rods, box);
-        const double step = time_step(scene, *mobility, rods);
-        require_countable_steps(scene, step);
-        require_slow_swimmers(scene, rods, step);
-        require_room_between_images(scene, box, *mobility, rods, step);
-        require_soft_potential(scene, *mobility, rods, step);
-        make_field(scene, box);  // for what it refuses
-        std::vector<Spring>& springs = beginning.state.springs;
+namespace {
+
+Beginning beginning_from(const Scene& scene, const std::filesystem::path& scene_path, std::optional<GivenRods> given,
+                         const AnnealingWatch& watch) {
+    std::optional<Rods> from_file;
+    if (given) from_file = std::move(given->rods);
+    const Box box = box_of(scene, from_file);
+    Beginning beginning = {{box, {}}};
+    Rods& rods = beginning.state.rods;
+    std::vector<Spring>& springs = beginning.state.springs;
+    rods = make_start(scene, box, from_file, [&](const Annealing& now) {
+        beginning.annealing = now;
+        if (watch) watch(now);
+    });
+    const auto model = make_mobility(scene);
+    const auto mobility = model->at(rods, box);
+    const double step = time_step(scene, *mobility, rods);
+    require_countable_steps(scene, step);
+    require_slow_swimmers(scene, rods, step);
+    require_room_between_images(scene, box, *mobility, rods, step);
+    require_soft_potential(scene, *mobility, rods, step);
+    make_field(scene, box);  // for what it refuses
+    if (given && !given->springs.empty()) {
+        springs = std::move(given->springs);
+    } else {
         springs = springs_from_file(scene, scene_path, rods);
         hold_nearest_images(springs, rods, box);
-        const auto mobility_of = [&](std::uint64_t id) { return mobility->of_rod(id); };  // at the start rows are ids
-        require_slow_springs(scene, springs, mobility_of, step);
-        return beginning;
-    });
+    }
+    const auto mobility_of = [&](std::uint64_t id) { return mobility->of_rod(id); };  // at the start rows are ids
+    require_slow_springs(scene, springs, mobility_of, step);
+    return beginning;
+}
+
+}  // namespace
+
+Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_path, const AnnealingWatch& watch) {
+    return in_scene_file(scene_path,
+                         [&] { return beginning_from(scene, scene_path, given_rods(scene, scene_path), watch); });
+}
+
+Beginning beginning_of(const Scene& scene, Rods rods) {
+    if (!rods.speed.empty()) require_swimming(scene, "what is given");
+    require_fit(scene, rods, "what is given");
+    return beginning_from(scene, {}, GivenRods{std::move(rods), {}}, {});
 }
 
 }  // namespace jostle

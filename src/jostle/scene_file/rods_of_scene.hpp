@@ -20,7 +20,17 @@ struct Beginning {
     Annealing annealing = {};  ///< of a random start
 };
 
-/// Reads the rods file of a scene with start = "file", if it has one; a relative path counts from the scene's folder.
+/// Rods that a scene does not make itself.
+struct GivenRods {
+    Rods rods;
+    std::vector<Spring> springs;  ///< between them, with the images that they hold, where another run tells them
+};
+
+/// The rods of a scene with start = "file" or "run", if it is one; relative paths count from the scene's folder.
+/// Errors: InputError where they do not fit the scene; DiskError.
+std::optional<GivenRods> given_rods(const Scene& scene, const std::filesystem::path& scene_path);
+
+/// The same without springs.
 std::optional<Rods> rods_from_file(const Scene& scene, const std::filesystem::path& scene_path);
 
 /// The box of a scene, for these rods or, if there are none, for those that the scene describes.
@@ -47,5 +57,9 @@ auto in_scene_file(const std::filesystem::path& scene_path, Call&& call) {
 /// Makes the start of a scene; `watch` sees how it is annealed. Errors: InputError where the rods do not fit, or move
 /// too fast for the time step.
 Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_path, const AnnealingWatch& watch = {});
+
+/// The same with rods that the caller has, of ids 0, 1, 2, ..., in the place of those that the scene would make; the
+/// scene has start = "run". Errors: InputError where they do not fit the scene.
+Beginning beginning_of(const Scene& scene, Rods rods);
 
 }  // namespace jostle

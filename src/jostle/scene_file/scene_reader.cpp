@@ -50,7 +50,7 @@ bool is_explained(const Mistakes& mistakes, const std::string& table, const std:
 Mistakes find_missing(const TomlDocument& document, const Scene& scene, const Mistakes& mistakes) {
     Mistakes missing;
     std::vector<RequiredKey> required;
-    if (scene.rods.start != StartKind::file) required.push_back({"rods", "count", "2000"});
+    if (!rods_are_given(scene)) required.push_back({"rods", "count", "2000"});
     required.push_back({"rods", "length", "5.0"});
     required.push_back({"time", "production", "50.0"});
     if (scene.units.system == UnitSystem::micro) {

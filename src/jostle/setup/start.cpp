@@ -122,12 +122,16 @@ Rods checked(Rods rods, const Box& box, const Scene& scene) {
     for (std::size_t i = 0; i < rods.size(); ++i) box.wrap(rods.centre[i], rods.image[i]);
     rods.image.assign(rods.size(), Image{0, 0, 0});
     const double overlap = largest_overlap(rods, box);
-    const double allowed = file_overlap * scene.rods.diameter;
+    const bool of_run = scene.rods.start == StartKind::run;
+    const double allowed = (of_run ? scene.contact.overlap_limit : file_overlap) * scene.rods.diameter;
     if (overlap > allowed)
-        throw InputError({.key = "rods.file",
-                          .value = "\"" + scene.rods.file + "\"",
-                          .problem = fmt::format("rods of this file overlap by up to {:.3g}", overlap),
-                          .allowed = fmt::format("overlaps up to {:.3g}", allowed)});
+        throw InputError(
+            {.key = of_run ? "rods.run" : "rods.file",
+             .value = "\"" + (of_run ? scene.rods.run : scene.rods.file) + "\"",
+             .problem = fmt::format("{} overlap by up to {:.3g}{}", of_run ? "its rods" : "rods of this file", overlap,
+                                    of_run ? " in the box of this scene" : ""),
+             .allowed = fmt::format("overlaps up to {:.3g}", allowed),
+             .suggestion = of_run ? "Give the box of that run, or a roomier one" : ""});
     return rods;
 }
 
@@ -158,6 +162,7 @@ Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& f
         case StartKind::lattice:
             return rods_in_rows(scene, box);
         case StartKind::file:
+        case StartKind::run:
             return checked(from_file.value(), box, scene);
     }
     return {};

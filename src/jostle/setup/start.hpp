@@ -15,7 +15,7 @@ namespace jostle {
 ///            there are few rods) is annealed, all of it: `watch` sees how;
 /// "aligned": centres uniform, all axes along `rods.axis`, pushed apart without turning;
 /// "lattice": rows of rods along `rods.axis` (a direction of the box), evenly spaced;
-/// "file":    `from_file`, checked for overlaps.
+/// "file":    `from_file`, checked for overlaps, and so is "run", up to `contact.overlap_limit`.
 /// Throws InputError where the rods do not fit.
 Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& from_file = std::nullopt,
                 const AnnealingWatch& watch = {});
