@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ._arrays import with_shape
+from ._arrays import array, with_shape
 from ._jostle import refuse
 from .trajectory import Frame, H5mdTrajectory, JournalTrajectory, open_trajectory
 
@@ -59,7 +59,7 @@ def _frames_of_arrays(arrays):
     for name in ("centre", "edges"):
         if name not in arrays:
             refuse(f"rods[{name!r}]", "", "is missing")
-    centre = np.asarray(arrays["centre"])
+    centre = array("centre", arrays["centre"])
     centre = with_shape("centre", centre if centre.ndim == 3 else centre[None], (None, None, 3))
     shape = centre.shape[:2]
     axis = with_shape("axis", arrays.get("axis", [1.0, 0.0, 0.0]), (*shape, 3), repeat=True)
@@ -72,9 +72,11 @@ def _frames_of_arrays(arrays):
     if not (edges > 0).all():
         refuse("edges", str(arrays["edges"]), "are not all positive", "lengths above 0")
     time = with_shape("time", arrays.get("time", np.arange(shape[0])), shape[:1])
-    periodic = tuple(bool(along) for along in arrays.get("periodic", (True, True, True)))
+    periodic = np.asarray(arrays.get("periodic", (True, True, True)))
+    if periodic.shape != (3,) or periodic.dtype.kind != "b":
+        refuse("periodic", str(arrays["periodic"]), "does not say along which directions", "three of True, False")
     ids, image = np.arange(shape[1], dtype=np.uint64), np.zeros((shape[1], 3), np.int32)
-    return [Frame(k, float(time[k]), edges[k], periodic, ids, centre[k], axis[k], image, length[k], diameter[k])
+    return [Frame(k, float(time[k]), edges[k], tuple(periodic.tolist()), ids, centre[k], axis[k], image, length[k], diameter[k])
             for k in range(shape[0])]
 
 

@@ -4,7 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ._jostle import refuse
+
 ROWS_AT_ONCE = 20_000
+MOST_EDGES = 20  # that are searched for images
 
 
 @dataclass
@@ -28,6 +31,8 @@ def neighbours(frame, reach):
     edges, periodic = np.asarray(frame.edges, float), np.asarray(frame.periodic, bool)
     centre = np.asarray(frame.centre, float)
     centre = np.where(periodic, centre - edges * np.floor(centre / edges), centre)
+    if not (reach <= MOST_EDGES * np.where(periodic, edges, np.inf)).all():
+        refuse("rods", f"a reach of {reach:g}", "goes through the box too often", f"at most {MOST_EDGES} of its edges")
     points, rod = centre, np.arange(len(centre))
     for along in np.flatnonzero(periodic):
         images = int(np.ceil(reach / edges[along]))

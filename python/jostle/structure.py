@@ -225,15 +225,15 @@ def _distance(frames, largest):
 
 def _powers(frame, largest):
     """Sizes of the wave vectors up to the largest, q or -q, and |sum exp(-i q.r)|^2/N of each."""
-    edges = np.asarray(frame.edges, float)
+    along = np.argsort(-np.asarray(frame.edges, float))  # the longest edge, which has most wave vectors, row by row
+    edges, turns = np.asarray(frame.edges, float)[along], (np.asarray(frame.centre, float) / frame.edges)[:, along]
     most = np.floor(largest * (1.0 + 1e-9) * edges / (2.0 * np.pi)).astype(int)
-    turns = np.asarray(frame.centre, float) / edges
-    phase = [np.exp(-2j * np.pi * np.outer(np.arange(-m if a else 0, m + 1), turns[:, a])) for a, m in enumerate(most)]
     y, z = (np.arange(-m, m + 1) * 2.0 * np.pi / edge for m, edge in zip(most[1:], edges[1:]))
+    across = [np.exp(-2j * np.pi * np.outer(np.arange(-most[a], most[a] + 1), turns[:, a])) for a in (1, 2)]
     sizes, powers = [], []
-    for row, along_x in enumerate(phase[0]):
+    for row in range(most[0] + 1):
         size = np.sqrt((row * 2.0 * np.pi / edges[0])**2 + y[:, None]**2 + z**2)
-        power = abs((phase[1] * along_x) @ phase[2].T)**2 / len(frame)
+        power = abs((across[0] * np.exp(-2j * np.pi * row * turns[:, 0])) @ across[1].T)**2 / len(frame)
         wanted = size <= largest * (1.0 + 1e-9)
         if row == 0:  # of q and -q one
             wanted &= (y[:, None] > 0) | ((y[:, None] == 0) & (z > 0))

@@ -185,6 +185,8 @@ def test_of_a_run_and_of_its_file(tmp_path):
     (lambda: analysis.clusters({"centre": [[0, 0, 0]], "edges": [9, 9, 9], "axis": [1, 1, 0]}, gap=1), "unit vectors"),
     (lambda: analysis.mean_square_displacements({"centre": [[0, 0, 0]], "edges": [9, 9, 9]}), "at least two frames"),
     (lambda: analysis.mean_square_displacements({"centre": [[[0, 0, 0]]] * 2, "edges": [9, 9, 9], "time": [1, 1]}), "does not rise"),
+    (lambda: analysis.clusters({"centre": [[0, 0, 0]], "edges": [9, 9, 9], "periodic": 1}, gap=1), "three of True, False"),
+    (lambda: analysis.clusters({"centre": [[0, 0, 0]], "edges": [9, 9, 9]}, gap=1e9), "goes through the box too often"),
     (lambda: analysis.pair_correlation({"centre": [[0, 0, 0]], "edges": [9, 9, 9]}), "at least two rods"),
     (lambda: analysis.pair_correlation({"centre": [[0, 0, 0]] * 2, "edges": [9, 9, 9]}, largest=5), "at most half"),
     (lambda: analysis.pair_correlation({"centre": [[0, 0, 0]] * 2, "edges": [9, 9, 9]}, bins=0), "at least 1"),

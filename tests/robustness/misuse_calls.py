@@ -7,6 +7,7 @@ import sys
 import numpy as np
 
 import jostle
+from jostle import analysis
 
 CALLS = 40
 DOCUMENTED = (jostle.InputError, jostle.DiskError, jostle.StepFailure)
@@ -47,8 +48,29 @@ def attempt(name, call):
     return None
 
 
+def odd_rods(choose):
+    names = ["centre", "axis", "length", "diameter", "edges", "time", "periodic", "speed"]
+    sound = {"centre": np.zeros((2, 1, 3)), "edges": [9, 9, 9]}
+    return {**sound, **{key: choose.choice(ODD) for key in choose.sample(names, choose.randint(1, 3))}}
+
+
+def odd_analysis(choose, value):
+    function = choose.choice([analysis.mean_square_displacements, analysis.orientation_memory, analysis.pair_correlation, analysis.structure_factor,
+                              analysis.clusters])
+    rods, more = choose.choice([value, odd_rods(choose)]), [choose.choice(ODD)] if function is analysis.clusters else []
+    return f"{function.__name__} {rods!r:.400} {more!r:.200}", lambda: function(rods, *more)
+
+
+def add_odd_column(scene, name, function):
+    simulation = jostle.Simulation(scene)
+    simulation.add_column(name, function)
+    simulation.run(20)
+    simulation.summary()
+
+
 def odd_call(choose, simulation, scene):
-    name = choose.choice(list(ARGUMENTS) + ["step", "run", "save", "resume", "add_motion", "set", "from_toml", "stress"])
+    name = choose.choice(list(ARGUMENTS) + ["step", "run", "save", "resume", "add_motion", "set", "from_toml", "stress", "record", "add_column", "rods",
+                                             "analysis"])
     value = choose.choice(ODD)
     told = f"{name} {value!r:.200}"
     if name in ARGUMENTS:
@@ -73,6 +95,15 @@ def odd_call(choose, simulation, scene):
         return told, lambda: setattr(getattr(scene.copy(), table), key, value)
     if name == "from_toml":
         return told, lambda: jostle.Scene.from_toml(value)
+    if name == "record":
+        return told, lambda: simulation.record(value, choose.choice(ODD))
+    if name == "add_column":
+        return told, lambda: add_odd_column(scene, choose.choice(["own", value]), choose.choice([value, lambda _: value]))
+    if name == "rods":
+        given = choose.choice([value, odd_rods(choose)])
+        return f"rods {given!r:.400}", lambda: jostle.Simulation(scene, rods=given)
+    if name == "analysis":
+        return odd_analysis(choose, value)
     rods = simulation.rods
     return told, lambda: jostle.collision_stress(value, rods.axis, rods.length)
 
