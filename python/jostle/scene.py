@@ -89,16 +89,16 @@ class Scene:
 
         >>> Scene.from_toml('''
         ... [box]
-        ... volume_fraction = 0.2
+        ... volume_fracton = 0.2
         ... [rods]
         ... count = 400
-        ... lenght = 5.0
+        ... length = 5.0
         ... [time]
         ... production = 50.0
         ... ''')
         Traceback (most recent call last):
-        jostle.InputError: <text>:6:1: rods.lenght = 5.0: is an unknown key (allowed: "count", "length", "diameter", "length_deviation", \
-"diameter_deviation", "start", "axis", "file"). Did you mean "length"?
+        jostle.InputError: <text>:3:1: box.volume_fracton = 0.2: is an unknown key (allowed: "volume_fraction", "shape", "edges", "periodic"). \
+Did you mean "volume_fraction"?
         """
         if not isinstance(source, (str, os.PathLike)):
             refuse("source", repr(source), "is no scene", "the name of a file, or a text")
