@@ -23,7 +23,7 @@ SHAPES = {  # L/D: volume fractions
 }
 QUICK_SHAPES = {0: (0.10, 0.40), 1: (0.08,), 2: (0.30,), 5: (0.20,), 10: (0.05,), 20: (0.02,)}
 DEFAULT_STEP = 0.03
-AIMS = {DEFAULT_STEP: 0.005, 0.06: 0.01}  # rms step: largest error of Z, beside two standard errors
+AIMS = {DEFAULT_STEP: 0.005, 0.06: 0.01}  # rms step: largest error of Z, beside two combined standard errors
 QUICK_AIM = 0.01
 
 
@@ -78,13 +78,15 @@ def evaluate(report, runs_by_name, quick):
 
 def spread(rms, numbers):
     """How far the points of one step are from their references."""
-    deviations = sorted((abs(Z / reference - 1), beta, phi) for beta, phi, _, Z, _, reference, *_ in numbers if reference)
-    worst, beta, phi = deviations[-1]
+    deviations = sorted((abs(Z / reference - 1), beta, phi, (Z - reference) / math.hypot(error, reference_error))
+                        for beta, phi, _, Z, error, reference, reference_error, *_ in numbers if reference)
+    worst, beta, phi, errors = deviations[-1]
     aim = AIMS[rms]
     mean_square = sum(deviation**2 for deviation, *_ in deviations) / len(deviations)
-    return (f"At rms step {rms:g} the worst deviation of {len(deviations)} points with a reference is {100 * worst:.2f} % (L/D = {beta:g}, phi = {phi:.2f}), "
-            f"the root mean square {100 * math.sqrt(mean_square):.2f} %; {sum(deviation > aim for deviation, *_ in deviations)} are beyond {100 * aim:g} % "
-            f"before their errors are counted. {len(numbers) - len(deviations)} have no reference, and are not judged.")
+    beyond = sum(deviation > aim for deviation, *_ in deviations)
+    return (f"At rms step {rms:g} the worst deviation of {len(deviations)} points with a reference is {math.copysign(100 * worst, errors):+.2f} %, "
+            f"{errors:+.1f} combined standard errors (L/D = {beta:g}, phi = {phi:.2f}), the root mean square {100 * math.sqrt(mean_square):.2f} %; "
+            f"{beyond} are beyond {100 * aim:g} % before their errors are counted. {len(numbers) - len(deviations)} have no reference, and are not judged.")
 
 
 def draw(report, points):

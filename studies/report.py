@@ -31,10 +31,10 @@ class Report:
         self.checks, self.tables, self.pictures, self.remarks = [], [], [], []
 
     def compare(self, name, measured, expected, relative, errors=2.0):
-        """Checks (mean, standard error) against (value, error): within `relative` of the value, and `errors` standard
-        errors of both together."""
+        """Checks (mean, standard error) against (value, error): |mean - value| <= relative |value| + errors times the combined
+        standard error."""
         allowed = relative * abs(expected[0]) + errors * math.hypot(measured[1], expected[1])
-        rule = f"{100 * relative:g} % and {errors:g} standard errors" if relative else f"{errors:g} standard errors"
+        rule = (f"{100 * relative:g} % + " if relative else "") + f"{errors:g} combined standard errors"
         self.checks.append(Check(name, float(measured[0]), float(expected[0]), float(allowed), rule))
         return self.checks[-1].passed
 

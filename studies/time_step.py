@@ -17,7 +17,7 @@ from weighted_fit import WeightedFit
 STATES = ((0, 0.2), (0, 0.4), (5, 0.2), (5, 0.3))  # L/D, volume fraction
 STEPS = {0.005: 100000, 0.01: 60000, 0.02: 50000, 0.03: 50000, 0.045: 30000, 0.06: 40000, 0.1: 20000, 0.15: 20000, 0.2: 20000}  # rms step: production
 QUICK_STEPS = {0.02: 12000, 0.03: 10000, 0.06: 6000, 0.1: 5000}
-AIMS = {0.03: 0.005, 0.06: 0.01}  # rms step: largest error of the corrected Z, beside two standard errors
+AIMS = {0.03: 0.005, 0.06: 0.01}  # rms step: largest error of the corrected Z, beside two combined standard errors
 SCHEMES = ("plain", "corrected")
 ORDER_UP_TO, FIT_UP_TO = 0.045, 0.1  # rms steps
 LONGEST_PLAIN = 0.1  # at 0.2 rods pass through each other

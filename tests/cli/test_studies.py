@@ -16,6 +16,7 @@ STUDIES = pathlib.Path(__file__).resolve().parents[2] / "studies"
 sys.path.insert(0, str(STUDIES))
 
 import page  # noqa: E402  (the path comes first)
+import quickstart  # noqa: E402
 import reference_values  # noqa: E402
 from report import Report  # noqa: E402
 
@@ -48,15 +49,22 @@ def test_predicted_anisotropy():
 @pytest.mark.parametrize("measured, passes", [(1.0, True), (1.029, True), (0.97, False), (1.031, False),
                                               (float("nan"), False)])
 def test_a_comparison_can_fail(measured, passes, tmp_path):
-    """1 % and two standard errors of 0.006 and 0.008 together: 0.03."""
+    """1 % + 2 combined standard errors of 0.006 and 0.008: 0.03."""
     report = Report("name", "title", "question", tmp_path)
     assert not report.passed  # without a check nothing has passed
     report.compare("state", (measured, 0.006), (1.0, 0.008), 0.01)
-    assert report.passed == passes
+    assert report.passed == passes and report.checks[0].rule == "1 % + 2 combined standard errors"
     assert report.require("bound", 2.0, upper=3.0) and report.require("bound", 2.0, lower=1.0)
     assert not report.require("bound", 2.0, upper=1.9) and not report.require("bound", 2.0, lower=2.1)
     assert not report.require("bound", float("nan"), upper=1.0)
     assert not report.passed
+
+
+def test_quickstart_prints_its_bound_and_the_worst_case():
+    """phi, Z, its error, the reference, its error, per cent, combined standard errors: the first deviates more in per cent, the second beyond its bound."""
+    rows = [[0.1, 2.05, 0.03, 2.0, 0.04, 2.5, 1.0], [0.2, 4.08, 0.003, 4.0, 0.004, 2.0, 16.0]]
+    assert quickstart.claim(rows) == ("|Z - Z_ref| <= 1 % of Z_ref + 2 combined standard errors holds in 1 of 2 states. "
+                                      "The worst case is phi = 0.20, +2.00 %, +16.0 combined standard errors.")
 
 
 def test_bad_requests(tmp_path):
