@@ -12,12 +12,12 @@
 #include "jostle/scene/scene_box.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/step_limits.hpp"
+#include "jostle/scene/time_step.hpp"
 #include "jostle/scene/units.hpp"
 #include "jostle/scene_file/rods_of_scene.hpp"
 #include "jostle/scene_file/scene_reader.hpp"
 #include "jostle/scene_file/scene_settings.hpp"
 #include "jostle/scene_file/scene_writer.hpp"
-#include "jostle/scene_file/springs_file.hpp"
 #include "jostle/setup/assemble.hpp"
 #include "jostle/setup/free_clocks.hpp"
 #include "jostle/setup/start.hpp"
@@ -35,13 +35,7 @@ struct Population {
 
 Population population_of(const Scene& scene, const std::optional<Rods>& from_file) {
     if (from_file) return {*from_file, static_cast<double>(from_file->size()), total_volume(*from_file)};
-    Rods rods;
-    if (rods_are_alike(scene) && scene.motion.self_propulsion_deviation == 0.0)
-        rods.push_back(0, {}, {1, 0, 0}, scene.rods.length, scene.rods.diameter);
-    else
-        for (const RodSize& size : rod_sizes(scene))
-            rods.push_back(rods.size(), {}, {1, 0, 0}, size.length, size.diameter);
-    return {rods, static_cast<double>(scene.rods.count), rods_volume(scene)};
+    return {representative_rods(scene), static_cast<double>(scene.rods.count), rods_volume(scene)};
 }
 
 /// Rough costs, from docs/performance.md: a step of one rod takes longer where there are more contacts.
@@ -118,7 +112,7 @@ void print_motion(const Scene& scene, const MobilityOperator& mobility, const Ro
         print("rms step / D", fmt::format("{:.4g}", std::sqrt(2.0 * fastest * dt) / diameter));
     }
     const double speed = scene.motion.self_propulsion;
-    if (speed != 0.0) {
+    if (swims(scene)) {
         double farthest = 0.0;
         for (const double own : SelfPropulsion(swimming_of(scene)).speeds(rods, scene.seed))
             farthest = std::max(farthest, std::fabs(own) * dt / diameter);
@@ -160,26 +154,17 @@ void print_clocks(const Scene& scene, const MobilityOperator& mobility, const Ro
           fmt::format("about {:.2g} {} (an estimate)", enough, readable_unit_of(scene, dimension::time)));
 }
 
-struct SpringsOfScene {
-    std::size_t count = 0;
-    double relaxation = 0.0;
-};
-
-/// Reads and checks the springs. Of a scene whose rods are all alike, `population` holds one for all.
-SpringsOfScene springs_of(const Scene& scene, const std::string& scene_path, const Population& population,
-                          const MobilityOperator& mobility, double dt) {
-    if (scene.springs.file.empty()) return {};
-    const auto row_of = [&](std::uint64_t id) { return population.rods.size() == 1 ? 0 : id; };
-    const auto length_of = [&](std::uint64_t id) { return population.rods.length[row_of(id)]; };
-    const auto springs =
-        read_springs(springs_path(scene, scene_path), static_cast<std::uint64_t>(population.count), length_of);
-    const auto mobility_of = [&](std::uint64_t id) { return mobility.of_rod(row_of(id)); };
-    return {springs.size(), require_slow_springs(scene, springs, mobility_of, dt)};
-}
-
-void print_springs(const SpringsOfScene& springs) {
-    print("springs", fmt::format("{}", springs.count));
-    print("springs relax per step", fmt::format("{:.3g} of their stretch at most", springs.relaxation));
+void print_limits(const Scene& scene, const Rods& rods, const MobilityOperator& mobility,
+                  std::span<const Spring> springs, double dt) {
+    if (!springs.empty()) {
+        print("springs", fmt::format("{}", springs.size()));
+        print("springs relax per step",
+              fmt::format("{:.3g} of their stretch at most", spring_limit(scene, springs, rods, mobility).amount(dt)));
+    }
+    if (scene.contact.model == ContactModel::wca)
+        print("potential relaxes per step",
+              fmt::format("{:.3g} of the overlap of rods that meet with 5 kT, at most; 2 is too much",
+                          potential_limit(scene, rods, mobility).amount(dt)));
 }
 
 /// How a population changes in a time, without noise and stalling: its end, and its mean, over its beginning.
@@ -245,12 +230,12 @@ ExitCode check(const Scene& scene, const std::string& scene_path) {
     const double phi = population.volume / box.volume();
     const auto model = make_mobility(scene);
     const auto mobility = model->at(population.rods, box);
-    const double dt = time_step(scene, *mobility, population.rods);
+    const std::vector<Spring> springs =
+        springs_from_file(scene, scene_path, population.rods, static_cast<std::uint64_t>(population.count));
+    const double dt = time_step(scene, *model, box, population.rods, springs);
     require_countable_steps(scene, dt);
-    require_slow_swimmers(scene, population.rods, dt);
-    require_room_between_images(scene, box, *mobility, population.rods, dt);
-    require_soft_potential(scene, *mobility, population.rods, dt);
-    const SpringsOfScene springs = springs_of(scene, scene_path, population, *mobility, dt);
+    const auto limits = step_limits(scene, *model, box, population.rods, springs);
+    require_short_step(limits, dt);
     const auto field = make_field(scene, box);
 
     std::printf("%s\n# what follows from it\n", to_toml(scene).c_str());
@@ -262,13 +247,10 @@ ExitCode check(const Scene& scene, const std::string& scene_path) {
     print("box", fmt::format("{:.6g} x {:.6g} x {:.6g} {}", box.edges.x, box.edges.y, box.edges.z,
                              readable_unit_of(scene, dimension::length)));
     print("time step", with_unit(dt, scene, dimension::time));
+    for (const std::string& warning : warnings_of_step(limits, dt)) print("WARNING", warning);
     print_motion(scene, *mobility, population.rods, dt);
-    if (scene.motion.self_propulsion != 0.0) print_swimming(scene, *mobility, population.rods, dt);
-    if (springs.count > 0) print_springs(springs);
-    if (scene.contact.model == ContactModel::wca)
-        print("potential relaxes per step",
-              fmt::format("{:.3g} of the overlap of rods that meet with 5 kT, at most; 2 is too much",
-                          potential_relaxation(scene, *mobility, population.rods, dt)));
+    if (swims(scene)) print_swimming(scene, *mobility, population.rods, dt);
+    print_limits(scene, population.rods, *mobility, springs, dt);
     if (field) {
         const auto& [x, y, z] = field->cells();
         print("stress field", fmt::format("{} x {} x {} cells", x, y, z));

@@ -82,10 +82,13 @@ ExitCode start_run(const RunOptions& options, const RunScene& scene, std::string
 ExitCode resume_run(const RunOptions& options, const RunScene& scene, const RunDirectory& directory,
                     Checkpoint checkpoint) {
     require_same_scene(checkpoint, scene.scene, directory.path());
-    require_same_springs(
-        checkpoint,
-        in_scene_file(scene.path, [&] { return springs_from_file(scene.scene, scene.path, checkpoint.state.rods); }),
-        scene.scene.motion.reversal_rate > 0.0, springs_path(scene.scene, scene.path));
+    require_same_springs(checkpoint,
+                         in_scene_file(scene.path,
+                                       [&] {
+                                           const Rods& rods = checkpoint.state.rods;
+                                           return springs_from_file(scene.scene, scene.path, rods, rods.size());
+                                       }),
+                         scene.scene.motion.reversal_rate > 0.0, springs_path(scene.scene, scene.path));
     StepSums sums = StepSums::from_named(std::move(checkpoint.sums), scene.scene, checkpoint.state.box);
     Simulation simulation = assemble(scene.scene, std::move(checkpoint.state));
     RunFiles files(directory, scene.scene, scene.resolved, simulation, checkpoint.files);

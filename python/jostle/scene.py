@@ -61,8 +61,8 @@ class Scene:
     Raises InputError with the text that `jostle check` prints.
 
     >>> scene = Scene(box={"volume_fraction": 0.2}, rods={"count": 400, "length": 5.0}, time={"production": 500.0})
-    >>> scene.rods.length, scene.time.rms_step, scene.motion.brownian
-    (5.0, 0.03, True)
+    >>> scene.rods.length, scene.time.step, scene.motion.brownian
+    (5.0, None, True)
     >>> scene.box.volume_fraction = 0.5
     >>> scene.validate()
     Traceback (most recent call last):

@@ -61,8 +61,8 @@ GROWTH = [
     ({"division_length": None}, "growth.division_length", "is missing", "Add division_length = 5"),
     ({"division_length": 1.0}, "is not above what two daughters need", "greater than 1"),
     ({"division_length": 2.0}, "is not above rods.length = 2", "greater than 2"),
-    ({"rate": 6.0}, "lengthens cells by 0.12 in a step of 0.02", "at most 5"),
-    ({"rate": 4.0, "rate_deviation": 0.1}, "lengthens cells by 0.112 in a step of 0.02", "at most 3.571"),
+    ({"rate": 6.0}, "in a step of 0.02, the fastest cells lengthen by 0.12 D", "at most 5"),
+    ({"rate": 4.0, "rate_deviation": 0.1}, "in a step of 0.02, the fastest cells lengthen by 0.112 D", "at most 3.571"),
     ({"rate_deviation": -0.1}, "is negative", "at least 0"),
     ({"division_deviation": 0.9}, "is outside the allowed range", "at most 0.5"),
     ({"division": "size"}, "is not one of the words", 'Did you mean "sizer"?'),
@@ -71,7 +71,7 @@ GROWTH = [
     ({"stall_memory": 1.0}, "is not used without growth.stall_force", "Set stall_force"),
     ({"death_rate": -1.0}, "is negative", "at least 0"),
     ({"division_every": 0}, "is outside the allowed range", "at least 1"),
-    ({"division_every": 400}, "lets cells grow by 0.8 between two looks", "they add 3", "at most 375"),
+    ({"division_every": 400}, "lets cells divide late", "birth to division, is 0.2667", "at most 375"),
 ]
 
 
@@ -111,17 +111,17 @@ def test_growth(finished_copy, entry):
 
 # Of rods that swim and tumble.
 SWIMMERS = [
-    ("self_propulsion", 26.0, "takes a rod through others in a single step of 0.02", "up to 25, half a diameter in a step", "slower swimmers"),
+    ("self_propulsion", 26.0, "takes a rod through others: in a step of 0.02", "at most 25, or a step of at most 0.0192", "slower swimmers"),
     ("self_propulsion", -26.0, "is negative", "at least 0"),
     ("self_propulsion_deviation", -0.5, "is negative", "at least 0"),
     ("self_propulsion_deviation", Verbatim("nan"), "is not a finite number", "at least 0"),
     ("tumble_rate", -1.0, "is negative", "at least 0"),
     ("tumble_rate", Verbatim("inf"), "is not a finite number", "at least 0"),
     ("tumble_rate", 0.0, None),
-    ("tumble_rate", 60.0, "is more than one tumble in a time step", "at most 50"),
+    ("tumble_rate", 60.0, "makes more than one tumble in a time step", "at most 50"),
     ("tumble_time", 0.0, "is zero", "greater than 0"),
     ("tumble_time", 21.0, "leaves rods no time to swim between tumbles", "at most 20"),
-    ("tumble_time", 0.1, "is too short: the ends of a rod would pass through others", "at least 0.26"),
+    ("tumble_time", 0.1, "is too short: the ends of a rod would pass through others", "at least 0.25"),
     ("reversal_rate", -1.0, "is negative", "at least 0"),
     ("reversal_rate", Verbatim("-inf"), "is not a finite number", "at least 0"),
 ]
@@ -142,15 +142,18 @@ def test_swimmers(finished_copy, entry):
 
 
 def test_swimmers_too_fast_for_a_step_from_the_diffusion(tmp_path):
-    scene = changed(RODS, motion={"self_propulsion": 1.0, "tumble_rate": 0.5, "tumble_time": 0.01}, time={"step": None})
+    scene = changed(RODS, motion={"self_propulsion": 1.0, "tumble_rate": 0.5, "tumble_time": 0.01}, time={"step": None, "rms_step": 0.03})
     write_scene(tmp_path, scene)
+    at = place_of(scene_text(scene), "motion", "tumble_time")
     for name in ("check", "run"):
-        require_one_line(command(tmp_path, name, "scene.toml"), "jostle: scene.toml:18:15: motion.tumble_time = 0.01: is too short",
+        require_one_line(command(tmp_path, name, "scene.toml"), f"jostle: scene.toml:{at}: motion.tumble_time = 0.01: is too short",
                          "(allowed: at least ", "Use a shorter time.step or slower tumbles")
-    write_scene(tmp_path, changed(scene, motion={"self_propulsion": 3000.0, "tumble_time": None}))
+    scene = changed(scene, motion={"self_propulsion": 3000.0, "tumble_time": None})
+    write_scene(tmp_path, scene)
+    at = place_of(scene_text(scene), "motion", "self_propulsion")
     for name in ("check", "run"):
-        require_one_line(command(tmp_path, name, "scene.toml"), "jostle: scene.toml:16:19: motion.self_propulsion = 3000.0: takes a rod",
-                         "(allowed: speeds up to ", "Use a shorter time.step or slower swimmers")
+        require_one_line(command(tmp_path, name, "scene.toml"), f"jostle: scene.toml:{at}: motion.self_propulsion = 3000.0: takes a rod",
+                         "(allowed: at most ", "Use a shorter time.step or slower swimmers")
     assert sorted(entry.name for entry in tmp_path.iterdir()) == ["scene.toml"]
 
 
@@ -175,7 +178,7 @@ def test_slender_daughters_of_cells_that_divide_early(tmp_path, division):
 @pytest.mark.parametrize("diameters, model, parts", [
     ((1.0, 3.0), "capsule", ["growth.division_length = 2.9: is not above what two daughters need", "greater than 3"]),
     ((1.0, 1.2), "slender_body", ["makes daughters as short as L/D = 0.7083", "capsule"]),
-    ((1.0, 0.02), "capsule", ["growth.rate = 0.2: lengthens cells by 0.004", "a tenth of the diameter"]),
+    ((1.0, 0.02), "capsule", ["growth.rate = 0.2: lengthens cells so far", "lengthen by 0.2 D"]),
 ])
 def test_growth_of_cells_from_a_file(tmp_path, diameters, model, parts):
     """What holds for cells of diameter 1 need not for all of the file."""
@@ -195,7 +198,7 @@ def test_fastest_swimmers(tmp_path, growth):
     write_scene(tmp_path, changed(scene, growth=growth) if growth else scene)
     for name in ("check", "run"):
         require_one_line(command(tmp_path, name, "scene.toml"), "motion.self_propulsion = ", "takes a rod through others",
-                         "speeds up to 25")
+                         "(allowed: at most 25, or a step of at most ")
 
 
 @pytest.mark.parametrize("table, key, example", [("rods", "count", "count = 2000"), ("rods", "length", "length = 5.0"),

@@ -115,7 +115,7 @@ def test_the_fastest_swimmer(tmp_path):
 def test_defaults_are_spelled_out(tmp_path):
     """The resolved scene holds every key, means the same, and is what a run keeps."""
     scene, derived = check(tmp_path, changed(RODS, time={"step": None}))
-    assert scene["time"]["rms_step"] == 0.03 and "step" not in scene["time"]
+    assert scene["time"]["step"] == "auto" and "rms_step" not in scene["time"]
     assert number(derived["rms step / D"]) == pytest.approx(0.03, rel=1e-3)
     assert set(scene) == {"title", "seed", "units", "box", "rods", "fluid", "mobility", "motion", "growth", "contact",
                           "solver",

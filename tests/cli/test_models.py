@@ -94,7 +94,7 @@ def test_a_soft_potential_too_stiff_for_the_step_is_refused_before_the_run(tmp_p
     write_scene(tmp_path, changed(RODS, **{**SOFT, "contact": {"model": "wca", "energy": 1e8}}))
     for name in ("check", "run"):
         require_one_line(command(tmp_path, name, "scene.toml"), "contact.energy = 1", "makes a potential too stiff for the time step",
-                         "a step of at most", "Use a shorter step, a lower energy, or hard rods")
+                         "a step of at most", "Use a shorter time.step or a lower energy")
     assert not list(tmp_path.glob("*.run"))
     write_scene(tmp_path, changed(RODS, **SOFT))
     told = command(tmp_path, "check", "scene.toml").stdout
@@ -103,12 +103,16 @@ def test_a_soft_potential_too_stiff_for_the_step_is_refused_before_the_run(tmp_p
 
 
 def test_steps_too_long_between_the_images_of_a_rod_are_refused(tmp_path):
-    """At 1.001 D a rod may turn by 0.045 to either side, at 1.00001 D by 0.0045; the default step turns it by 0.012."""
+    """At 1.001 D a rod may turn by 0.045 to either side, at 1.00001 D by 0.0045; an rms step of 0.03 turns it by 0.012, and the
+    automatic step by half of what it may."""
     scene = {"box": {"edges": [1.001, 12.0, 12.0]}, "rods": {"count": 1, "length": 5.0, "start": "aligned", "axis": [0, 0, 1]},
-             "time": {"production": 10.0}}
+             "time": {"rms_step": 0.03, "production": 10.0}}
     write_scene(tmp_path, scene)
     assert command(tmp_path, "check", "scene.toml").returncode == DONE
     write_scene(tmp_path, changed(scene, box={"edges": [1.00001, 12.0, 12.0]}))
     for name in ("check", "run"):
-        require_one_line(command(tmp_path, name, "scene.toml"), "box.edges = ", "room to turn by 0.004472 rad between its own images along x",
-                         "a step of at most", "Enlarge that edge, or use a shorter step")
+        require_one_line(command(tmp_path, name, "scene.toml"), "box.edges = ", "leaves rods no room to turn between their own images",
+                         "a step of at most", "Use a shorter time.step or a larger box")
+    write_scene(tmp_path, changed(scene, box={"edges": [1.00001, 12.0, 12.0]}, time={"rms_step": None}))
+    checked = command(tmp_path, "check", "scene.toml")
+    assert checked.returncode == DONE and "WARNING" not in checked.stdout, checked.stdout + checked.stderr

@@ -108,3 +108,14 @@ def test_average_without_an_error_bar(series, reason):
 def test_average_refuses(series):
     with pytest.raises(jostle.InputError, match="^series"):
         jostle.average(series)
+
+
+@pytest.mark.parametrize("pushed", [False, True])
+def test_a_motion_that_is_added_takes_the_checks_of_equilibrium_away(pushed):
+    """Unless a motion says that it keeps equilibrium it does not; one of Python cannot say so."""
+    simulation = jostle.Simulation(jostle.Scene(box={"volume_fraction": 0.1}, rods={"count": 30, "length": 2.0},
+                                                time={"rms_step": 0.1, "equilibration": 0.0, "production": 10.0}))
+    if pushed:
+        simulation.add_motion(lambda rods, clock: 0.0 * rods.centre)
+    simulation.run()
+    assert (simulation.summary()["checks"] == {}) == pushed

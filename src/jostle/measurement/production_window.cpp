@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "jostle/measurement/summary_entries.hpp"
+#include "jostle/scene/scene_motion.hpp"
 #include "jostle/statistics/equilibration.hpp"
 #include "jostle/stress/column_names.hpp"
 
@@ -38,8 +39,7 @@ ProductionSeries production_series(const Scene& scene, const SeriesTable& series
     production.watched = {watched(series, first, "pressure_collision", "collision pressure")};
     if (!scene.springs.file.empty())
         production.watched.push_back(watched(series, first, "pressure_springs", "pressure of springs"));
-    if (scene.motion.self_propulsion != 0.0)
-        production.watched.push_back(watched(series, first, "pressure_active", "active pressure"));
+    if (swims(scene)) production.watched.push_back(watched(series, first, "pressure_active", "active pressure"));
     if (!turn) return production;
     production.order = from_row(series.column("nematic_order"), first);
     production.order_tensor = window_columns(series, first, order_tensor_column_names);

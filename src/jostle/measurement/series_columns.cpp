@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/units.hpp"
 #include "jostle/stress/orientation_stress.hpp"
 
@@ -160,7 +161,7 @@ TableColumns<RowState> series_columns(const Scene& scene) {
     add_order_columns(series);
     add_contact_columns(scene, series);
     if (!scene.springs.file.empty()) add_spring_columns(scene, series);
-    if (scene.motion.self_propulsion != 0.0) add_active_columns(scene, series);
+    if (swims(scene)) add_active_columns(scene, series);
     if (scene.output.stress_conventions) add_convention_columns(scene, series);
     return series;
 }

@@ -108,8 +108,7 @@ StepSums StepSums::from_named(NamedNumbers numbers, const Scene& scene, const Bo
                               .suggestion = "Start anew with --fresh"});
         std::copy(found->second.begin(), found->second.end(), values.begin());
     });
-    if (scene.motion.self_propulsion != 0.0)
-        sums.active_stress = ActiveStress::from_named(taken_under("active_stress", numbers));
+    if (swims(scene)) sums.active_stress = ActiveStress::from_named(taken_under("active_stress", numbers));
     if (scene.output.field_every == 0) return sums;
     NamedNumbers field_so_far = taken_under("field", numbers);
     sums.field = field_so_far.empty() ? make_field(scene, box) : StressField::from_named(std::move(field_so_far));
@@ -127,7 +126,7 @@ Checkpoint checkpoint_of(const Simulation& simulation, const StepSums& sums, std
 StepSums first_sums(const Scene& scene, const Simulation& simulation) {
     StepSums sums;
     sums.field = make_field(scene, simulation.box());
-    if (scene.motion.self_propulsion == 0.0) return sums;
+    if (!swims(scene)) return sums;
     const Rods& rods = simulation.rods();
     const double row_time = simulation.settings().time_step * static_cast<double>(scene.output.series_every);
     const auto mobility = simulation.mobility().at(rods, simulation.box());

@@ -15,6 +15,7 @@
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/run_files/version.hpp"
 #include "jostle/scene/rod_size.hpp"
+#include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/units.hpp"
 #include "jostle/setup/free_clocks.hpp"
 #include "jostle/stress/column_names.hpp"
@@ -173,7 +174,7 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
         summary["stress_springs"] =
             tensor_entry(window_columns(series, first, spring_stress_column_names), stress_unit);
     }
-    if (scene.motion.self_propulsion != 0.0) summarise_active_stress(series, first, stress_unit, summary);
+    if (swims(scene)) summarise_active_stress(series, first, stress_unit, summary);
     summary["principal_stresses"] = mean_principal_stresses(stress, stress_unit);
     summary["principal_stresses_collision"] = mean_principal_stresses(collision, stress_unit);
     if (scene.output.stress_conventions)
@@ -194,7 +195,7 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     summary["production_rows"] = series.rows() - std::min(first, series.rows());
     summary["max_overlap"] = run_max_overlap / smallest_diameter(scene, rods);
     Json checks = Json::object();
-    const bool in_equilibrium = thermal && scene.motion.self_propulsion == 0.0 && !springs && !grows;
+    const bool in_equilibrium = simulation.keeps_equilibrium() && !springs;
     if (in_equilibrium && simulation.box().is_periodic())
         checks["total_stress_ratio"] = total_stress_ratio_check(stress, order);
     if (in_equilibrium && all_alike(rods))

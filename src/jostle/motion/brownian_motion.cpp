@@ -1,5 +1,6 @@
 #include "jostle/motion/brownian_motion.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -7,6 +8,13 @@
 #include "jostle/math/random.hpp"
 
 namespace jostle {
+
+namespace {
+
+// Root-mean-square steps, in D: docs/guide/scene.md, "Time step".
+constexpr double automatic_rms_step = 0.03, advised_rms_step = 0.1;
+
+}  // namespace
 
 BrownianMotion::BrownianMotion(double kT) : kT_(kT) {
     require_value(std::isfinite(kT) && kT >= 0.0, "fluid.kT", kT, "is no thermal energy", ">= 0, finite");
@@ -18,6 +26,31 @@ void BrownianMotion::add_velocities(Velocities& known, const Rods& /*rods*/, con
     const double scale = std::sqrt(2.0 * kT_ / context.time_step);
     mobility.add_square_root({context.seed, context.step, Stream::brownian, 0}, scale, known);
     mobility.add_drift(kT_, known);
+}
+
+std::vector<StepLimit> BrownianMotion::step_limits(const Rods& rods, const MobilityOperator& mobility,
+                                                   std::uint64_t /*seed*/) const {
+    if (rods.size() == 0) return {};
+    return {{.key = "fluid.kT",
+             .value = "",
+             .harm = "moves rods far",
+             .what = "the fastest rod diffuses, in the root mean square per axis,",
+             .unit = "D",
+             .remedy = "",
+             .rate = 2.0 * fastest_diffusion(kT_, mobility, rods.size()),
+             .scale = *std::min_element(rods.diameter.begin(), rods.diameter.end()),
+             .diffusive = true,
+             .automatic = automatic_rms_step,
+             .advised = advised_rms_step}};
+}
+
+double fastest_diffusion(double kT, const MobilityOperator& mobility, std::size_t rod_count) {
+    double fastest = 0.0;
+    for (std::size_t i = 0; i < rod_count; ++i) {
+        const RodMobility rod = mobility.of_rod(i);
+        fastest = std::max(fastest, kT * (rod.parallel + 2.0 * rod.perpendicular) / 3.0);
+    }
+    return fastest;
 }
 
 }  // namespace jostle

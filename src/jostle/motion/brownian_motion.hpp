@@ -16,8 +16,17 @@ public:
     void add_velocities(Velocities& known, const Rods& rods, const MobilityOperator& mobility,
                         const StepContext& context) const override;
 
+    bool keeps_equilibrium() const override { return true; }
+
+    /// The root-mean-square step of the fastest rod along an axis, over the diameter of the thinnest.
+    std::vector<StepLimit> step_limits(const Rods& rods, const MobilityOperator& mobility,
+                                       std::uint64_t seed) const override;
+
 private:
     double kT_;
 };
+
+/// D_t of the fastest of the first `rod_count` rods, kT (parallel + 2 perpendicular)/3.
+double fastest_diffusion(double kT, const MobilityOperator& mobility, std::size_t rod_count);
 
 }  // namespace jostle

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "jostle/mobility/mobility.hpp"
+#include "jostle/motion/step_limit.hpp"
 #include "jostle/rods/forces.hpp"
 #include "jostle/rods/rods.hpp"
 #include "jostle/rods/velocities.hpp"
@@ -37,6 +38,15 @@ public:
     /// Rows of the rods that exchange head and tail once the step has been made, n -> -n: the same bodies, and no point
     /// of one moves.
     virtual std::vector<std::uint32_t> turned_round(const Rods& /*rods*/, const StepContext& /*context*/) const {
+        return {};
+    }
+
+    /// Whether rods in equilibrium stay in it: else what equilibrium demands of the stress is not checked.
+    virtual bool keeps_equilibrium() const { return false; }
+
+    /// What a time step must not be too long for, as these rods move; limits of rate 0 may be left out.
+    virtual std::vector<StepLimit> step_limits(const Rods& /*rods*/, const MobilityOperator& /*mobility*/,
+                                               std::uint64_t /*seed*/) const {
         return {};
     }
 };

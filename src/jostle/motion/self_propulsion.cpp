@@ -1,5 +1,7 @@
 #include "jostle/motion/self_propulsion.hpp"
 
+#include <fmt/core.h>
+
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -9,6 +11,15 @@
 #include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
+
+namespace {
+
+/// In D a step: up to this the collision pressure is right to 1 % (docs/validation/beside_the_studies.md).
+constexpr double advised_swim = 0.04;
+/// In D: a rod that swims farther in a step could pass through others.
+constexpr double farthest_swim = 0.5;
+
+}  // namespace
 
 SelfPropulsion::SelfPropulsion(const Swimming& swimming)
     : swimming_(swimming), tumbles_(swimming.tumble_rate, swimming.tumble_time) {
@@ -44,6 +55,30 @@ std::vector<std::uint32_t> SelfPropulsion::turned_round(const Rods& rods, const 
     for (std::uint32_t row = 0; row < rods.size(); ++row)
         if (turned[row] != 0) rows.push_back(row);
     return rows;
+}
+
+std::vector<StepLimit> SelfPropulsion::step_limits(const Rods& rods, const MobilityOperator& /*mobility*/,
+                                                   std::uint64_t seed) const {
+    const std::vector<double> speed = speeds(rods, seed);
+    double fastest = 0.0, fastest_over_diameter = 0.0;
+    for (std::size_t i = 0; i < rods.size(); ++i) {
+        if (std::fabs(speed[i]) / rods.diameter[i] <= fastest_over_diameter) continue;
+        fastest = speed[i];
+        fastest_over_diameter = std::fabs(speed[i]) / rods.diameter[i];
+    }
+    std::vector<StepLimit> limits = {{.key = "motion.self_propulsion",
+                                      .value = fmt::format("{:.4g}", fastest),
+                                      .number = std::fabs(fastest),
+                                      .harm = "takes a rod through others",
+                                      .what = "the fastest swimmer covers",
+                                      .unit = "D",
+                                      .remedy = "slower swimmers",
+                                      .rate = fastest_over_diameter,
+                                      .automatic = advised_swim,
+                                      .advised = advised_swim,
+                                      .largest = farthest_swim}};
+    for (StepLimit& limit : tumbles_.step_limits(rods)) limits.push_back(std::move(limit));
+    return limits;
 }
 
 std::vector<double> SelfPropulsion::speeds(const Rods& rods, std::uint64_t seed) const {

@@ -32,6 +32,10 @@ public:
                         const StepContext& context) const override;
     std::vector<std::uint32_t> turned_round(const Rods& rods, const StepContext& context) const override;
 
+    /// How far the fastest swims, how often rods tumble, and how far the ends of the longest are turned by a tumble.
+    std::vector<StepLimit> step_limits(const Rods& rods, const MobilityOperator& mobility,
+                                       std::uint64_t seed) const override;
+
     /// The rods' own speeds (N), whatever they do now.
     std::vector<double> speeds(const Rods& rods, std::uint64_t seed) const;
 

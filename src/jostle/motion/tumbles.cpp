@@ -1,7 +1,10 @@
 #include "jostle/motion/tumbles.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "jostle/error/require_value.hpp"
 #include "jostle/math/random.hpp"
@@ -9,6 +12,13 @@
 namespace jostle {
 
 namespace {
+
+/// In D a step: a tumble that turns the ends of a rod by more could carry them through others; "a few hundredths" is
+/// what docs/guide/scene.md advises.
+constexpr double farthest_turn = 0.25, advised_turn = 0.05;
+/// Tumbles that begin in a step.
+constexpr double automatic_share_of_a_step = 0.1, advised_share_of_a_step = 0.3;
+constexpr const char* slower = "slower tumbles";
 
 struct Quaternion {
     double real;
@@ -65,6 +75,40 @@ Tumbles::Tumbles(double rate, double duration) : rate_(rate), duration_(duration
 
 std::uint64_t Tumbles::steps(double time_step) const {
     return static_cast<std::uint64_t>(std::clamp(std::round(duration_ / time_step), 1.0, 0x1p53));
+}
+
+std::vector<StepLimit> Tumbles::step_limits(const Rods& rods) const {
+    if (rate_ == 0.0) return {};
+    double slenderest = 0.0;
+    for (std::size_t i = 0; i < rods.size(); ++i) slenderest = std::max(slenderest, rods.length[i] / rods.diameter[i]);
+    const double turned = 0.5 * std::numbers::pi * slenderest;  // by an end, in D, in a tumble
+    StepLimit often = {.key = "motion.tumble_rate",
+                       .value = fmt::format("{:.4g}", rate_),
+                       .number = rate_,
+                       .harm = "makes more than one tumble in a time step",
+                       .what = "a rod begins",
+                       .unit = "tumble",
+                       .remedy = slower,
+                       .rate = rate_,
+                       .automatic = automatic_share_of_a_step,
+                       .advised = advised_share_of_a_step,
+                       .largest = 1.0};
+    if (turned == 0.0) return {often};
+    StepLimit far = {.key = "motion.tumble_time",
+                     .value = fmt::format("{:.4g}", duration_),
+                     .number = duration_,
+                     .inverse = true,
+                     .harm = "is too short: the ends of a rod would pass through others",
+                     .what = "a tumble turns the ends of a rod by up to",
+                     .unit = "D",
+                     .remedy = slower,
+                     .rate = turned / duration_,
+                     .automatic = advised_turn,
+                     .advised = advised_turn};
+    // A tumble takes a whole number of steps, rounded, and at least one.
+    const double fewest = std::ceil(turned / farthest_turn);
+    far.largest = fewest > 1.0 ? turned / (fewest - 0.5) : StepLimit::none;
+    return {often, far};
 }
 
 std::optional<Vec3> Tumbles::angular_velocity(std::uint64_t id, const StepContext& context) const {

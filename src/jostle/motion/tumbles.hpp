@@ -29,6 +29,9 @@ public:
     /// Angular velocity of a tumbling rod, the same in all steps of a tumble; none while the rod runs.
     std::optional<Vec3> angular_velocity(std::uint64_t id, const StepContext& context) const;
 
+    /// How often rods tumble in a step, and how far a tumble turns the ends of the longest, over its diameter.
+    std::vector<StepLimit> step_limits(const Rods& rods) const;
+
 private:
     std::optional<std::uint64_t> beginning(std::uint64_t id, const StepContext& context, std::uint64_t duration) const;
 

@@ -62,6 +62,16 @@ double smallest_diameter(const Scene& scene, const Rods& rods) {
     return diameter.empty() ? scene.rods.diameter : *std::min_element(diameter.begin(), diameter.end());
 }
 
+Rods representative_rods(const Scene& scene) {
+    Rods rods;
+    if (rods_are_alike(scene) && scene.motion.self_propulsion_deviation == 0.0)
+        rods.push_back(0, {}, {1, 0, 0}, scene.rods.length, scene.rods.diameter);
+    else
+        for (const RodSize& size : rod_sizes(scene))
+            rods.push_back(rods.size(), {}, {1, 0, 0}, size.length, size.diameter);
+    return rods;
+}
+
 std::vector<RodSize> rod_sizes(const Scene& scene) {
     require_room(scene.rods.count);
     const RodSize mean = {scene.rods.length, scene.rods.diameter};

@@ -31,6 +31,10 @@ inline double largest_diameter(const Scene& scene) {
 /// The diameter of the thinnest rod; that of the scene where there is none.
 double smallest_diameter(const Scene& scene, const Rods& rods);
 
+/// Rods of the sizes and speeds with which those of a scene without a file start, at no places: all of them, by id, or
+/// one if all are alike.
+Rods representative_rods(const Scene& scene);
+
 /// Length and diameter that each rod starts with, by id (`rods.count`): normal numbers of mean `rods.length` and
 /// `rods.diameter` and standard deviations `rods.length_deviation` and `rods.diameter_deviation`, a function of (seed,
 /// id). Errors: InputError where no run of so many rods would fit in the memory of this machine.

@@ -20,9 +20,6 @@ enum class StepRule { bb1, bb2, alternating };
 enum class ResidualKind { length, paper };
 enum class FrameTimes { even, logarithmic };
 
-/// The step of a scene that names none: rms_step of `Scene::Time`.
-inline constexpr double default_rms_step = 0.03;
-
 /// A scene: everything that the user decides. Member names are the keys of the TOML file; one struct a table.
 ///
 /// All numbers are in the units of `units.system`. `validate` says whether the values make sense together;
@@ -106,8 +103,8 @@ struct Scene {
     } solver;
 
     struct Time {
-        std::optional<double> step;           // either this ...
-        std::optional<double> rms_step;       // ... or sqrt(2 D_t step), fastest rod, over D, thinnest; neither: 0.03
+        std::optional<double> step;           // either this; "auto" (empty): from all that moves, `time_step` ...
+        std::optional<double> rms_step;       // ... or sqrt(2 D_t step), fastest rod, over D, thinnest
         std::optional<double> equilibration;  // "auto" (empty) or a time
         double production = 0.0;              // time averaged over
         bool operator==(const Time&) const = default;

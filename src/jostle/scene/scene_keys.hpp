@@ -112,7 +112,7 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("solver", "residual", scene.solver.residual, Plain{});
     visit("solver", "tolerance", scene.solver.tolerance, Quantity{dim::none, {0.0, 0.1, false, false}});
     visit("solver", "max_iterations", scene.solver.max_iterations, Count{.lower = 1, .may_change = true});
-    visit("time", "step", scene.time.step, Quantity{dim::time, positive});
+    visit("time", "step", scene.time.step, Quantity{dim::time, positive, true});
     visit("time", "rms_step", scene.time.rms_step, Quantity{dim::none, {1e-6, 0.5}});
     visit("time", "equilibration", scene.time.equilibration, Quantity{dim::time, zero_or_positive, true, true});
     visit("time", "production", scene.time.production,

@@ -27,13 +27,21 @@ Swimming swimming_of(const Scene& scene) {
     return swimming;
 }
 
-double fastest_diffusion(double kT, const MobilityOperator& mobility, std::size_t rod_count) {
-    double fastest = 0.0;
-    for (std::size_t i = 0; i < rod_count; ++i) {
-        const RodMobility rod = mobility.of_rod(i);
-        fastest = std::max(fastest, kT * (rod.parallel + 2.0 * rod.perpendicular) / 3.0);
-    }
-    return fastest;
+std::vector<std::unique_ptr<Motion>> motions_of(const Scene& scene) {
+    std::vector<std::unique_ptr<Motion>> motions;
+    if (thermal_energy(scene) > 0.0) motions.push_back(std::make_unique<BrownianMotion>(thermal_energy(scene)));
+    if (swims(scene)) motions.push_back(std::make_unique<SelfPropulsion>(swimming_of(scene)));
+    return motions;
+}
+
+bool swims(const Scene& scene) {
+    return scene.motion.self_propulsion != 0.0;
+}
+
+bool keeps_equilibrium(const Scene& scene) {
+    const auto motions = motions_of(scene);
+    return thermal_energy(scene) > 0.0 && scene.growth.rate == 0.0 &&
+           std::all_of(motions.begin(), motions.end(), [](const auto& motion) { return motion->keeps_equilibrium(); });
 }
 
 double persistence_time(const Scene& scene, const MobilityOperator& mobility, std::size_t rod_count) {

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <vector>
 
 #include "jostle/mobility/mobility.hpp"
+#include "jostle/motion/brownian_motion.hpp"
 #include "jostle/motion/self_propulsion.hpp"
 #include "jostle/scene/scene.hpp"
 
@@ -16,8 +19,14 @@ double thermal_energy(const Scene& scene);
 /// How the rods of a scene swim.
 Swimming swimming_of(const Scene& scene);
 
-/// D_t of the fastest rod of an assembly.
-double fastest_diffusion(double kT, const MobilityOperator& mobility, std::size_t rod_count);
+/// Whether its rods swim.
+bool swims(const Scene& scene);
+
+/// All motions of the scene, in the order in which a step adds them up.
+std::vector<std::unique_ptr<Motion>> motions_of(const Scene& scene);
+
+/// Whether the rods come to equilibrium, but for springs: they are thermal, none grows, and no motion drives them.
+bool keeps_equilibrium(const Scene& scene);
 
 /// How long a free swimmer keeps its direction, 1/(2 D_R + tumble rate + 2 reversal rate): of the first `rod_count`
 /// rods the one that does so longest; infinite without rotation, tumbles and reversals.

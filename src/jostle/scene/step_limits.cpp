@@ -4,137 +4,129 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <iterator>
+#include <unordered_map>
 
 #include "jostle/contact/own_image.hpp"
 #include "jostle/contact/wca_forces.hpp"
-#include "jostle/motion/self_propulsion.hpp"
 #include "jostle/scene/refusal.hpp"
 #include "jostle/scene/rod_size.hpp"
-#include "jostle/scene/scene_keys.hpp"
 #include "jostle/scene/scene_motion.hpp"
 
 namespace jostle {
 
 namespace {
 
-/// A tumble that turns the ends of a rod by more than this in a step (in D) could carry them through others.
-constexpr double farthest_turn = 0.25;
-/// A rod that swims farther than this in a step (in D) could pass through others.
-constexpr double farthest_swim = 0.5;
-
 /// Rates and speeds of cells beyond the mean by so many standard deviations are one in thirty thousand.
 constexpr double deviations_of_the_fastest = 4.0;
+/// Of D: overlaps in a colony are some 1.6 times what the fastest cells lengthen in a step.
+constexpr double automatic_growth = 0.01, advised_growth = 0.03, largest_growth = 0.1;
 /// Cells divide late by as much of what they add from birth to division, at most, for being looked at now and then.
-constexpr double latest_division = 0.25;
-constexpr auto largest_step_number = static_cast<double>(max_steps);
-
-constexpr const char* slower_tumbles = "Use a shorter time.step or slower tumbles";
-
+constexpr double advised_lateness = 0.2, latest_division = 0.25;
+/// Of their stretch, that springs lose: thermal modes are too wide by half of it.
+constexpr double automatic_relaxation = 0.05, advised_relaxation = 0.1, largest_relaxation = 1.0;
+/// Of the overlap of rods that meet with `high_energy`.
+constexpr double automatic_throw = 1.0, advised_throw = 1.5, largest_throw = 2.0;
 /// In kT: the energy with which one pair in 150 meets.
 constexpr double high_energy = 5.0;
+/// Of the angle by which its own images let a rod be inclined.
+constexpr double automatic_turn = 0.5, largest_turn = 1.0;
+
+void append(std::vector<StepLimit>& limits, std::vector<StepLimit> more) {
+    limits.insert(limits.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+std::vector<StepLimit> motion_limits(const Scene& scene, const Mobility& model, const Box& box, const Rods& rods) {
+    std::vector<StepLimit> limits;
+    const auto mobility = model.at(rods, box);
+    for (const auto& motion : motions_of(scene)) append(limits, motion->step_limits(rods, *mobility, scene.seed));
+    return limits;
+}
+
+/// The shortest and the longest of the cells that are to come, as fast as they get.
+Rods cells_to_come(const Scene& scene, double diameter) {
+    const double fastest =
+        std::fabs(scene.motion.self_propulsion) + deviations_of_the_fastest * scene.motion.self_propulsion_deviation;
+    Rods cells;
+    cells.push_back(0, {}, {1, 0, 0}, std::max(0.0, 0.5 * (scene.growth.division_length - diameter)), diameter);
+    cells.push_back(1, {}, {1, 0, 0}, scene.growth.division_length, diameter);
+    cells.speed.assign(2, fastest);
+    return cells;
+}
 
 }  // namespace
 
-void require_short_growth(const Scene& scene, double diameter, double time_step) {
-    if (scene.growth.rate == 0.0) return;
-    const double longest = 0.1 * diameter;
-    const double fastest = 1.0 + deviations_of_the_fastest * scene.growth.rate_deviation;
-    const double of_step = fastest * scene.growth.rate * time_step;
-    if (of_step > longest)
-        refuse("growth.rate", text(scene.growth.rate),
-               fmt::format("lengthens cells by {} in a step of {}: contacts cannot follow", rounded(of_step),
-                           rounded(time_step)),
-               fmt::format("at most {}, a tenth of the diameter in a step", rounded(longest / (fastest * time_step))),
-               "Use a shorter time.step");
-    const double added = 0.5 * (scene.growth.division_length + diameter);
-    const double max_steps_between = std::max(1.0, std::floor(latest_division * added / of_step));
-    if (static_cast<double>(scene.growth.division_every) > max_steps_between)
-        refuse("growth.division_every", fmt::format("{}", scene.growth.division_every),
-               fmt::format("lets cells grow by {} between two looks at who divides; from birth to division they add {}",
-                           rounded(static_cast<double>(scene.growth.division_every) * of_step), rounded(added)),
-               fmt::format("at most {:.0f}, a quarter of it", max_steps_between),
-               "Look more often, or use a shorter time.step");
+std::vector<StepLimit> growth_limits(const Scene& scene, double diameter) {
+    const GrowthLaw& growth = scene.growth;
+    if (growth.rate == 0.0) return {};
+    const double fastest = (1.0 + deviations_of_the_fastest * growth.rate_deviation) * growth.rate;
+    std::vector<StepLimit> limits = {{.key = "growth.rate",
+                                      .value = rounded(growth.rate),
+                                      .number = growth.rate,
+                                      .harm = "lengthens cells so far that contacts cannot follow",
+                                      .what = "the fastest cells lengthen by",
+                                      .unit = "D",
+                                      .remedy = "",
+                                      .rate = fastest,
+                                      .scale = diameter,
+                                      .automatic = automatic_growth,
+                                      .advised = advised_growth,
+                                      .largest = largest_growth}};
+    if (growth.division_every > 1)
+        limits.push_back(
+            {.key = "growth.division_every",
+             .value = fmt::format("{}", growth.division_every),
+             .number = static_cast<double>(growth.division_every),
+             .harm = "lets cells divide late",
+             .what = "the part that cells add between two looks, of what they add from birth to division, is",
+             .unit = "",
+             .remedy = "look more often",
+             .rate = fastest * static_cast<double>(growth.division_every),
+             .scale = 0.5 * (growth.division_length + diameter),
+             .automatic = advised_lateness,
+             .advised = latest_division,
+             .largest = latest_division});
+    return limits;
 }
 
-void require_countable_steps(const Scene& scene, double time_step) {
-    if (scene.time.production < time_step)
-        refuse("time.production", text(scene.time.production), "is shorter than one step",
-               fmt::format("at least {}{}", scene.time.step ? "time.step = " : "one step, ", text(time_step)), "");
-    const bool long_production = scene.time.production / time_step > largest_step_number;
-    if (long_production || scene.time.equilibration.value_or(0.0) / time_step > largest_step_number)
-        refuse(long_production ? "time.production" : "time.equilibration",
-               text(long_production ? scene.time.production : *scene.time.equilibration),
-               fmt::format("takes more than {:g} steps of time.step = {}", largest_step_number, text(time_step)),
-               fmt::format("at most {:g} steps", largest_step_number), "Use a longer step or a shorter time");
-}
+namespace {
 
-void require_slow_swimmers(const Scene& scene, const Rods& rods, double time_step) {
-    const Swimming swimming = swimming_of(scene);
-    if (swimming.speed == 0.0) return;
-    const auto require_slow = [&](double speed, double diameter) {
-        const double most = farthest_swim * diameter / time_step;
-        if (std::fabs(speed) > most)
-            refuse("motion.self_propulsion", rounded(speed),
-                   fmt::format("takes a rod through others in a single step of {}", rounded(time_step)),
-                   fmt::format("speeds up to {}, half a diameter in a step", rounded(most)),
-                   "Use a shorter time.step or slower swimmers");
-    };
-    const std::vector<double> speed = SelfPropulsion(swimming).speeds(rods, scene.seed);
-    for (std::size_t i = 0; i < rods.size(); ++i) require_slow(speed[i], rods.diameter[i]);
-    if (scene.growth.rate > 0.0 && rods.speed.empty())  // daughters draw their own
-        require_slow(std::fabs(swimming.speed) + deviations_of_the_fastest * swimming.deviation,
-                     smallest_diameter(scene, rods));
-    if (swimming.tumble_rate == 0.0) return;
-    if (swimming.tumble_rate * time_step > 1.0)
-        refuse("motion.tumble_rate", rounded(swimming.tumble_rate), "is more than one tumble in a time step",
-               fmt::format("at most {}", rounded(1.0 / time_step)), slower_tumbles);
-    const double grown = scene.growth.rate > 0.0 ? scene.growth.division_length : 0.0;
-    const auto steps = static_cast<double>(Tumbles(swimming.tumble_rate, swimming.tumble_time).steps(time_step));
-    for (std::size_t i = 0; i < rods.size(); ++i) {
-        const double longest = std::max(rods.length[i], grown);
-        const double fewest = std::numbers::pi * 0.5 * longest / (farthest_turn * rods.diameter[i]);
-        if (steps < fewest)
-            refuse("motion.tumble_time", rounded(swimming.tumble_time),
-                   "is too short: the ends of a rod would pass through others in a single step",
-                   fmt::format("at least {}", rounded(std::ceil(fewest) * time_step)), slower_tumbles);
-    }
-}
-
-double require_slow_springs(const Scene& scene, std::span<const Spring> springs, const MobilityOfRod& mobility_of,
-                            double time_step) {
-    const double relaxation = spring_relaxation(springs, mobility_of, time_step);
-    if (relaxation <= 1.0) return relaxation;
-    refuse(
-        "springs.file", scene.springs.file,
-        fmt::format("springs are too stiff for the time step: in one of {} they may lose {} times their stretch (2 dt "
-                    "times stiffness times mobility)",
-                    rounded(time_step), rounded(relaxation)),
-        fmt::format("at most 1, with a step of at most {}", rounded(time_step / relaxation)),
-        "Use a shorter time.step or softer springs");
-}
-
-void require_room_between_images(const Scene& scene, const Box& box, const MobilityOperator& mobility, const Rods& rods,
-                                 double time_step) {
-    if (scene.contact.model != ContactModel::hard) return;
-    for (std::size_t i = 0; i < rods.size(); ++i) {
-        const double turn = std::sqrt(2.0 * thermal_energy(scene) * mobility.of_rod(i).rotational * time_step);
+/// Of rods that turn, between their own periodic images, by more than these let them be inclined, it could not be told
+/// what holds them.
+std::vector<StepLimit> image_limits(const Scene& scene, const Box& box, const Rods& rods,
+                                    const MobilityOperator& mobility) {
+    if (scene.contact.model != ContactModel::hard || thermal_energy(scene) == 0.0) return {};
+    StepLimit limit = {.key = "box.edges",
+                       .value = text(box.edges),
+                       .harm = "leaves rods no room to turn between their own images",
+                       .what = "the turn of a rod, over that which its images leave room for, is",
+                       .unit = "",
+                       .remedy = "a larger box",
+                       .diffusive = true,
+                       .automatic = automatic_turn,
+                       .advised = largest_turn,
+                       .largest = largest_turn};
+    for (std::size_t i = 0; i < rods.size(); ++i)
         for (std::size_t k = 0; k < 3; ++k) {
             const double edge = box.edges[static_cast<int>(k)];
             if (rods.length[i] == 0.0 || !box.periodic[k] || edge >= rods.length[i] + rods.diameter[i]) continue;
             const double room = inclination_between_images(edge, rods.length[i], rods.diameter[i]);
-            if (room >= turn) continue;
-            refuse("box.edges", text(box.edges),
-                   fmt::format("leave a rod room to turn by {} rad between its own images along {}, and a step of {} "
-                               "turns it by {}",
-                               rounded(room), "xyz"[k], rounded(time_step), rounded(turn)),
-                   fmt::format("a step of at most {}", rounded(time_step * room * room / (turn * turn))),
-                   "Enlarge that edge, or use a shorter step");
+            limit.rate =
+                std::max(limit.rate, 2.0 * thermal_energy(scene) * mobility.of_rod(i).rotational / (room * room));
         }
-    }
+    if (limit.rate == 0.0) return {};
+    return {limit};
 }
 
-double potential_relaxation(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, double time_step) {
+/// Thinner than any cell is but for one in a thousand; a function of the scene alone.
+double lasting_diameter(const Scene& scene) {
+    if (rods_are_given(scene)) return scene.rods.diameter;
+    return scene.rods.diameter - farthest_deviation * scene.rods.diameter_deviation;
+}
+
+}  // namespace
+
+StepLimit potential_limit(const Scene& scene, const Rods& rods, const MobilityOperator& mobility) {
     double largest = 0.0;
     for (std::size_t i = 0; i < rods.size(); ++i) {
         const RodMobility rod = mobility.of_rod(i);
@@ -143,21 +135,67 @@ double potential_relaxation(const Scene& scene, const MobilityOperator& mobility
     }
     const double energy = scene.contact.energy.value_or(scene.fluid.kT);
     const double curvature = wca_curvature(high_energy * thermal_energy(scene), smallest_diameter(scene, rods), energy);
-    return time_step * curvature * 2.0 * largest;
+    return {
+        .key = "contact.energy",
+        .value = text(energy),
+        .harm = "makes a potential too stiff for the time step, at which two rods that meet with 5 kT are thrown apart",
+        .what = "the way that they are thrown apart, over their overlap, is",
+        .unit = "",
+        .remedy = "a lower energy, or take hard rods",
+        .rate = curvature * 2.0 * largest,
+        .automatic = automatic_throw,
+        .advised = advised_throw,
+        .largest = largest_throw};
 }
 
-void require_soft_potential(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, double time_step) {
-    if (scene.contact.model != ContactModel::wca) return;
-    const double relaxation = potential_relaxation(scene, mobility, rods, time_step);
-    if (relaxation <= 2.0) return;
-    const double energy = scene.contact.energy.value_or(scene.fluid.kT);
-    refuse(
-        "contact.energy", text(energy),
-        fmt::format("makes a potential too stiff for the time step: two rods that meet with 5 kT are thrown apart by "
-                    "{} times their overlap in one of {}",
-                    rounded(relaxation), rounded(time_step)),
-        fmt::format("at most 2 times: a step of at most {}", rounded(2.0 * time_step / relaxation)),
-        "Use a shorter step, a lower energy, or hard rods");
+StepLimit spring_limit(const Scene& scene, std::span<const Spring> springs, const Rods& rods,
+                       const MobilityOperator& mobility) {
+    std::unordered_map<std::uint64_t, std::size_t> rows;
+    for (std::size_t i = 0; i < rods.size() && !springs.empty(); ++i) rows[rods.id[i]] = i;
+    const auto mobility_of = [&](std::uint64_t id) {
+        if (rods.size() == 1) return mobility.of_rod(0);  // one for all
+        const auto found = rows.find(id);
+        return found == rows.end() ? RodMobility{} : mobility.of_rod(found->second);
+    };
+    return {.key = "springs.file",
+            .value = scene.springs.file,
+            .harm = "names springs that are too stiff for the time step",
+            .what = "the part of their stretch that they may lose (2 dt times stiffness times mobility) is",
+            .unit = "",
+            .remedy = "softer springs",
+            .rate = spring_relaxation(springs, mobility_of, 1.0),
+            .automatic = automatic_relaxation,
+            .advised = advised_relaxation,
+            .largest = largest_relaxation};
+}
+
+std::vector<StepLimit> free_step_limits(const Scene& scene, const Mobility& model, const Box& box, const Rods& rods) {
+    const double thinnest = smallest_diameter(scene, rods);
+    std::vector<StepLimit> limits = motion_limits(scene, model, box, rods);
+    if (scene.growth.rate > 0.0) append(limits, motion_limits(scene, model, box, cells_to_come(scene, thinnest)));
+    append(limits, growth_limits(scene, thinnest));
+    return limits;
+}
+
+std::vector<StepLimit> step_limits(const Scene& scene, const Mobility& model, const Box& box, const Rods& rods,
+                                   std::span<const Spring> springs) {
+    const auto mobility = model.at(rods, box);
+    std::vector<StepLimit> limits = free_step_limits(scene, model, box, rods);
+    append(limits, image_limits(scene, box, rods, *mobility));
+    if (scene.contact.model == ContactModel::wca) limits.push_back(potential_limit(scene, rods, *mobility));
+    if (!springs.empty()) limits.push_back(spring_limit(scene, springs, rods, *mobility));
+    return limits;
+}
+
+std::vector<StepLimit> lasting_step_limits(const Scene& scene, const Mobility& model, const Box& box) {
+    const double diameter = lasting_diameter(scene);
+    const Rods cells = cells_to_come(scene, diameter);
+    const auto mobility = model.at(cells, box);
+    std::vector<StepLimit> limits = motion_limits(scene, model, box, cells);
+    append(limits, growth_limits(scene, diameter));
+    append(limits, image_limits(scene, box, cells, *mobility));
+    if (scene.contact.model == ContactModel::wca) limits.push_back(potential_limit(scene, cells, *mobility));
+    return limits;
 }
 
 }  // namespace jostle

@@ -6,6 +6,7 @@
 #include "jostle/scene/mistakes.hpp"
 #include "jostle/scene/refusal.hpp"
 #include "jostle/scene/scene_keys.hpp"
+#include "jostle/scene/scene_motion.hpp"
 
 namespace jostle {
 
@@ -29,7 +30,7 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
     if (start != StartKind::file) unused.push_back({"rods.file", with, "Set start = \"file\", or remove file"});
     if (start != StartKind::aligned && start != StartKind::lattice)
         unused.push_back({"rods.axis", with, "Set start = \"aligned\", or remove axis"});
-    if (scene.motion.self_propulsion == 0.0)
+    if (!swims(scene))
         for (const char* key : {"motion.self_propulsion_deviation", "motion.tumble_rate", "motion.tumble_time",
                                 "motion.reversal_rate", "output.active_stress_lag"})
             unused.push_back({key, "is not used with motion.self_propulsion = 0: nothing swims",
@@ -59,6 +60,8 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
     if (scene.output.field_every == 0)
         unused.push_back({"output.field_spacing", "is not used without output.field_every: there is no field",
                           "Set field_every, or remove it"});
+    if (scene.time.rms_step && !scene.time.step)
+        unused.push_back({"time.step", "is not used with time.rms_step", "Remove one of the two"});
     if (scene.springs.file.empty())
         unused.push_back({"springs.file", "names no file", "Name a CSV file of springs, or remove [springs]"});
     if (rods_are_given(scene) && scene.rods.count == 0)

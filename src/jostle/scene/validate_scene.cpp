@@ -11,8 +11,11 @@
 #include "jostle/scene/refusal.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_box.hpp"
+#include "jostle/scene/scene_mobility.hpp"
+#include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/scene_ranges.hpp"
 #include "jostle/scene/step_limits.hpp"
+#include "jostle/scene/time_step.hpp"
 #include "jostle/scene/unused_keys.hpp"
 
 namespace jostle {
@@ -97,10 +100,6 @@ void check_motion(const Scene& scene) {
         refuse("motion.tumble_time", text(*scene.motion.tumble_time),
                fmt::format("leaves rods no time to swim between tumbles: motion.tumble_rate = {}", rate),
                fmt::format("at most {}", rounded(longest)), "Lower tumble_time or tumble_rate");
-    if (!scene.time.step || rods_are_given(scene)) return;  // is looked at once there are rods
-    Rods one;
-    one.push_back(0, {}, {1, 0, 0}, scene.rods.length, scene.rods.diameter);
-    require_slow_swimmers(scene, one, *scene.time.step);
 }
 
 void check_mobility(const Scene& scene) {
@@ -167,13 +166,22 @@ void check_time(const Scene& scene) {
         refuse("time.rms_step", text(*scene.time.rms_step),
                fmt::format("is given beside time.step = {}", *scene.time.step), "one of the two, not both",
                "Keep one of them");
-    if (!scene.time.step && !scene.time.rms_step)
-        refuse("time.step", "", "is missing, and so is time.rms_step: the time step is not known", "one of the two",
-               "Add step = 1e-3 under [time]");
+    const bool moves =
+        thermal_energy(scene) > 0.0 || swims(scene) || scene.growth.rate > 0.0 || !scene.springs.file.empty();
+    if (!scene.time.step && !scene.time.rms_step && !moves)
+        refuse("time.step", "", "is missing, and nothing in the scene moves that a step could be found from",
+               "a time, greater than 0", "Add step = 1e-3 under [time]");
     check_rms_step(scene);
-    if (!scene.time.step) return;
-    require_short_growth(scene, scene.rods.diameter, *scene.time.step);
-    require_countable_steps(scene, *scene.time.step);
+    if (scene.time.step) require_countable_steps(scene, *scene.time.step);
+}
+
+/// Of a scene that is sound otherwise.
+void check_step(const Scene& scene) {
+    if (!scene.time.step || rods_are_given(scene)) return;  // is looked at once there are rods
+    Rods one;
+    one.push_back(0, {}, {1, 0, 0}, scene.rods.length, scene.rods.diameter);
+    const Box box{box_edges(scene), scene.box.periodic};
+    require_short_step(free_step_limits(scene, *make_mobility(scene), box, one), *scene.time.step);
 }
 
 }  // namespace
@@ -195,6 +203,7 @@ void validate(const Scene& scene) {
     if (!rods_are_given(scene))
         together.look([&] { validate_contact_range(scene, largest_length(scene) + largest_diameter(scene)); });
     together.refuse_any();
+    check_step(scene);
 }
 
 void validate_box(const Scene& scene, double rods_volume, double largest_diameter) {

@@ -9,8 +9,11 @@
 #include "jostle/error/input_error.hpp"
 #include "jostle/error/one_line.hpp"
 #include "jostle/run_files/checkpoint.hpp"
+#include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_box.hpp"
+#include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/step_limits.hpp"
+#include "jostle/scene/time_step.hpp"
 #include "jostle/scene/validate_scene.hpp"
 #include "jostle/scene_file/rods_file.hpp"
 #include "jostle/scene_file/rods_of_run.hpp"
@@ -44,7 +47,7 @@ void require_swimming(const Scene& scene, const std::string& file) {
                           .suggestion = suggestion});
     };
     const Scene::MotionTable& motion = scene.motion;
-    if (motion.self_propulsion == 0.0)
+    if (!swims(scene))
         refuse("motion.self_propulsion", motion.self_propulsion, "says that nothing swims",
                "Set it to the mean speed, or remove the column");
     if (motion.self_propulsion_deviation != 0.0)
@@ -109,8 +112,8 @@ GivenRods given_by_run(const Scene& scene, const std::filesystem::path& scene_pa
     Checkpoint known;
     known.state.springs = std::move(of_run.springs);
     try {  // are they those of the file?
-        require_same_springs(known, springs_from_file(scene, scene_path, given.rods), of_run.turned_round,
-                             springs_path(scene, scene_path));
+        require_same_springs(known, springs_from_file(scene, scene_path, given.rods, given.rods.size()),
+                             of_run.turned_round, springs_path(scene, scene_path));
     } catch (const InputError&) {
         return given;
     }
@@ -155,11 +158,13 @@ std::string springs_path(const Scene& scene, const std::filesystem::path& scene_
     return scene.springs.file.empty() ? "" : named_file("springs.file", scene.springs.file, scene_path).string();
 }
 
-std::vector<Spring> springs_from_file(const Scene& scene, const std::filesystem::path& scene_path, const Rods& rods) {
+std::vector<Spring> springs_from_file(const Scene& scene, const std::filesystem::path& scene_path, const Rods& rods,
+                                      std::uint64_t count) {
     if (scene.springs.file.empty()) return {};
     std::vector<double> length(rods.size());  // by id: where nothing grows, ids are 0 to N - 1
     for (std::size_t i = 0; i < rods.size(); ++i) length.at(rods.id[i]) = rods.length[i];
-    return read_springs(springs_path(scene, scene_path), rods.size(), [&](std::uint64_t id) { return length[id]; });
+    return read_springs(springs_path(scene, scene_path), count,
+                        [&](std::uint64_t id) { return length[length.size() == 1 ? 0 : id]; });
 }
 
 namespace {
@@ -170,28 +175,21 @@ Beginning beginning_from(const Scene& scene, const std::filesystem::path& scene_
     if (given) from_file = std::move(given->rods);
     const Box box = box_of(scene, from_file);
     Beginning beginning = {{box, {}}};
-    Rods& rods = beginning.state.rods;
+    const Rods rods = from_file ? *from_file : representative_rods(scene);
     std::vector<Spring>& springs = beginning.state.springs;
-    rods = make_start(scene, box, from_file, [&](const Annealing& now) {
+    const bool held = given && !given->springs.empty();  // by images that they know
+    springs = held ? std::move(given->springs)
+                   : springs_from_file(scene, scene_path, rods, from_file ? rods.size() : scene.rods.count);
+    const auto model = make_mobility(scene);
+    const double step = time_step(scene, *model, box, rods, springs);
+    require_countable_steps(scene, step);
+    require_short_step(step_limits(scene, *model, box, rods, springs), step);
+    make_field(scene, box);  // for what it refuses
+    beginning.state.rods = make_start(scene, box, from_file, [&](const Annealing& now) {
         beginning.annealing = now;
         if (watch) watch(now);
     });
-    const auto model = make_mobility(scene);
-    const auto mobility = model->at(rods, box);
-    const double step = time_step(scene, *mobility, rods);
-    require_countable_steps(scene, step);
-    require_slow_swimmers(scene, rods, step);
-    require_room_between_images(scene, box, *mobility, rods, step);
-    require_soft_potential(scene, *mobility, rods, step);
-    make_field(scene, box);  // for what it refuses
-    if (given && !given->springs.empty()) {
-        springs = std::move(given->springs);
-    } else {
-        springs = springs_from_file(scene, scene_path, rods);
-        hold_nearest_images(springs, rods, box);
-    }
-    const auto mobility_of = [&](std::uint64_t id) { return mobility->of_rod(id); };  // at the start rows are ids
-    require_slow_springs(scene, springs, mobility_of, step);
+    if (!held) hold_nearest_images(springs, beginning.state.rods, box);
     return beginning;
 }
 

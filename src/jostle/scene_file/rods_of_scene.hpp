@@ -40,8 +40,10 @@ Box box_of(const Scene& scene, const std::optional<Rods>& rods);
 /// is not there.
 std::string springs_path(const Scene& scene, const std::filesystem::path& scene_path);
 
-/// The springs of a scene between these rods, empty where it names none; images are 0. Errors: InputError, DiskError.
-std::vector<Spring> springs_from_file(const Scene& scene, const std::filesystem::path& scene_path, const Rods& rods);
+/// The springs of a scene between `count` rods, empty where it names none; images are 0. `rods`: all of these, or one
+/// that stands for all. Errors: InputError, DiskError.
+std::vector<Spring> springs_from_file(const Scene& scene, const std::filesystem::path& scene_path, const Rods& rods,
+                                      std::uint64_t count);
 
 /// What `call()` returns; an InputError of it without a place gets that of its key in the scene.
 template <class Call>

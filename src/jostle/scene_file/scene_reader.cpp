@@ -28,8 +28,6 @@ void read_keys(const TomlDocument& document, Scene& scene, Mistakes& mistakes) {
             mistakes.look(
                 [&] { KeyReader(document, scene.units.system, full_key(table, name)).read(*node, member, spec); });
     });
-    const bool brownian_step = scene.motion.brownian && scene.fluid.kT > 0.0 && scene.growth.rate == 0.0;
-    if (!scene.time.step && !scene.time.rms_step && brownian_step) scene.time.rms_step = default_rms_step;
 }
 
 /// A key that has no default, and a value to begin with.

@@ -25,8 +25,8 @@ InputError in_scene_file(const std::filesystem::path& path, const InputError& er
 /// Reads and validates a scene in TOML; `file_name` is for messages.
 ///
 /// Keys are those of `for_each_key`. In the micro system numbers may carry units (`parse_quantity`), and the viscosity,
-/// kT and the diameter must be given: 1 is a natural default in reduced units only. A scene without a step gets
-/// rms_step = 0.03 where there is Brownian motion. A table [sweep] is for `jostle sweep`, and not looked at.
+/// kT and the diameter must be given: 1 is a natural default in reduced units only. A table [sweep] is for `jostle
+/// sweep`, and not looked at.
 /// Throws InputError for unknown, missing, repeated and unused keys, wrong types and whatever `validate` refuses: for
 /// all keys that are wrong by themselves at once, and where there are none for all that do not go together.
 Scene parse_scene(std::string_view text, std::string file_name);

@@ -9,6 +9,7 @@
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/rods/space_filling_order.hpp"
 #include "jostle/scene/scene_box.hpp"
+#include "jostle/scene/scene_motion.hpp"
 #include "jostle/setup/largest_overlap.hpp"
 #include "jostle/setup/scattered_rods.hpp"
 
@@ -143,9 +144,7 @@ void require_lattice_fits(const Scene& scene, const Box& box) {
 
 std::string start_warning(const Scene& scene, double volume_fraction) {
     const double aspect_ratio = scene.rods.length / scene.rods.diameter, limit = isotropic_limit(aspect_ratio);
-    const bool in_equilibrium =
-        scene.motion.brownian && scene.motion.self_propulsion == 0.0 && scene.growth.rate == 0.0;
-    if (scene.rods.start != StartKind::random || !in_equilibrium || volume_fraction <= limit) return "";
+    if (scene.rods.start != StartKind::random || !keeps_equilibrium(scene) || volume_fraction <= limit) return "";
     return fmt::format(
         "a random start is isotropic, and beyond a volume fraction of about {:.2f} rods of L/D = {:.3g} "
         "order, which takes longer than most runs: start = \"aligned\" is nearer to equilibrium",

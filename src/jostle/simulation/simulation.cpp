@@ -1,5 +1,7 @@
 #include "jostle/simulation/simulation.hpp"
 
+#include <algorithm>
+
 #include "jostle/error/input_error.hpp"
 #include "jostle/motion/springs.hpp"
 #include "jostle/rods/space_filling_order.hpp"
@@ -21,6 +23,12 @@ Simulation::Simulation(State state, std::unique_ptr<Mobility> mobility, std::vec
                           .suggestion = "Remove [springs] or [growth]"});
     growth_.emplace(*settings_.growth, settings_.seed);
     if (state_.rods.cycle.empty()) growth_->found(state_.rods);
+}
+
+bool Simulation::keeps_equilibrium() const {
+    return settings_.kT > 0.0 && !settings_.growth &&
+           std::all_of(motions_.begin(), motions_.end(),
+                       [](const auto& motion) { return motion->keeps_equilibrium(); });
 }
 
 void Simulation::reorder(std::span<const std::uint32_t> order) {

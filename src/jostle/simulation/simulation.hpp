@@ -46,6 +46,8 @@ public:
     const Rods& rods() const { return state_.rods; }
     const Box& box() const { return state_.box; }
     const Clock& clock() const { return state_.clock; }
+    /// Whether the rods come to equilibrium, but for springs: they are thermal, none grows, no motion drives them.
+    bool keeps_equilibrium() const;
     /// Who was born and who died after the last step.
     std::span<const LineageEvent> lineage() const { return lineage_; }
     /// The model of the fluid: `at(rods(), box())` is M of the rods as they stand.

@@ -144,7 +144,9 @@ TEST_CASE("keys beside keys") {
     CHECK(refused_key([](Scene& s) { s.box.edges = Vec3{20, 20, 20}; }) == "box.edges");
     CHECK(refused_key([](Scene& s) { s.box.volume_fraction.reset(); }) == "box.volume_fraction");
     CHECK(refused_key([](Scene& s) { s.time.rms_step = 0.03; }) == "time.rms_step");
-    CHECK(refused_key([](Scene& s) { s.time.step.reset(); }) == "time.step");
+    CHECK(refused_key([](Scene& s) { s.time.step.reset(); }) == "");
+    CHECK(refused_key([](Scene& s) { s.time.step.reset(), s.motion.brownian = false; }) == "time.step");
+    CHECK(refused_key([](Scene& s) { s.time.step.reset(), s.fluid.kT = 0.0; }) == "time.step");
     CHECK(refused_key([](Scene& s) { s.rods.file = "rods.csv"; }) == "rods.file");
     CHECK(refused_key([](Scene& s) { s.output.stress_per_rod = true; }) == "");
     CHECK(refused_key([](Scene& s) {

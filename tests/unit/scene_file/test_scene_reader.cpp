@@ -96,9 +96,9 @@ TEST_CASE("a good scene is read") {
     CHECK(!scene.contact.range);
 }
 
-TEST_CASE("defaults: a step where there is Brownian motion, auto, byte order mark, CRLF") {
+TEST_CASE("defaults: auto, byte order mark, CRLF") {
     Scene scene = parse_scene("\xef\xbb\xbf" + scene_with(15, "equilibration = \"auto\"\r"), "good.toml");
-    CHECK(scene.time.rms_step == 0.03);
+    CHECK(!scene.time.rms_step);
     CHECK(!scene.time.step);
     CHECK(!scene.time.equilibration);
     scene = parse_scene(scene_with(12,
@@ -204,7 +204,9 @@ TEST_CASE("words") {
          "neither a number", "Did you mean \"auto\"?"},
         {12, "[contact]\nrange = \"automatic\"\n[fluid]", 13, 9, "contact.range", "\"automatic\"", "neither a number",
          "Did you mean \"auto\"?"},
-        {15, "step = \"auto\"", 15, 8, "time.step", "\"auto\"", "a text, the wrong type", "a number in mu D3/kT"},
+        {15, "rms_step = \"auto\"", 15, 12, "time.rms_step", "\"auto\"", "a text, the wrong type", "a number"},
+        {15, "rms_step = 0.03\nstep = \"auto\"", 16, 8, "time.step", "\"auto\"", "is not used with time.rms_step",
+         "Remove one"},
     };
     for (const Case& c : cases) check(c);
 }

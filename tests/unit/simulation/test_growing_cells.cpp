@@ -189,7 +189,7 @@ TEST_CASE("growth that cannot be is refused with the numbers") {
     bad.growth.rate = -1.0;
     CHECK(message(bad).find("is negative") != std::string::npos);
     bad.growth.rate = 20.0;
-    CHECK(message(bad).find("lengthens cells by 0.2 in a step") != std::string::npos);
+    CHECK(message(bad).find("the fastest cells lengthen by 0.2 D") != std::string::npos);
     bad = scene;
     bad.growth.death_rate = -0.1;
     CHECK(message(bad).find("growth.death_rate") != std::string::npos);

@@ -35,7 +35,7 @@ Scene crowd() {
 std::string refused_key(const Scene& scene) {
     try {
         const Rods rods = make_start(crowd(), box);
-        require_slow_swimmers(scene, rods, time_step(scene, *make_mobility(scene)->at(rods, {}), rods));
+        require_short_step(step_limits(scene, *make_mobility(scene), box, rods), *scene.time.step);
     } catch (const InputError& error) {
         CHECK(!error.parts().allowed.empty());
         return error.parts().key;

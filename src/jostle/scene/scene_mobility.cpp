@@ -1,0 +1,33 @@
+#include "jostle/scene/scene_mobility.hpp"
+
+#include "jostle/mobility/drag.hpp"
+#include "jostle/mobility/drag_mobility.hpp"
+
+namespace jostle {
+
+namespace {
+
+using DragOfViscosity = RodMobility (*)(double length, double diameter, double viscosity);
+
+DragOfViscosity drag_of(MobilityModel model) {
+    switch (model) {
+        case MobilityModel::slender_body:
+            return slender_body_drag;
+        case MobilityModel::finite_aspect_ratio:
+            return finite_aspect_ratio_drag;
+        case MobilityModel::capsule:
+            break;
+    }
+    return capsule_drag;
+}
+
+}  // namespace
+
+std::unique_ptr<Mobility> make_mobility(const Scene& scene) {
+    return std::make_unique<DragMobility>(
+        [drag = drag_of(scene.mobility.model), viscosity = scene.fluid.viscosity](double length, double diameter) {
+            return drag(length, diameter, viscosity);
+        });
+}
+
+}  // namespace jostle
