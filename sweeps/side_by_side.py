@@ -85,7 +85,9 @@ def ask(jostle, scene, *words):
         raise BadScene(words[("\n" + words).rfind("\njostle: "):].removeprefix("jostle: ") if "jostle: " in words else words.splitlines()[-1])
     resolved, _, follows = done.stdout.partition("\n# what follows from it\n")
     told = Told(resolved, *(number_after(follows, label) for label in ("time step", "steps", "time on one thread, about", "N")))
-    told.time_step = tomllib.loads(resolved)["time"].get("step", told.time_step)  # in the scene's own unit, where cells grow, too
+    step = tomllib.loads(resolved)["time"].get("step", "auto")
+    if step != "auto":
+        told.time_step = step  # in the scene's own unit, where cells grow, too
     return told
 
 
