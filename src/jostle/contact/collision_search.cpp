@@ -189,8 +189,11 @@ double CollisionSearch::append(const PairKey& key, const PairGeometry& before, c
     return largest;
 }
 
+/// Inactive pairs are no contacts until they are activated; once the list is another one, any pair may be one.
 bool CollisionSearch::is_contact(const PairKey& key, const Contacts& contacts) const {
     const PairKey listed = in_order_of_rows(key);
+    if (std::binary_search(activated_.begin(), activated_.end(), listed)) return true;
+    if (!neighbours_.built_while_widened()) return false;
     const auto pair_at = [&](std::size_t l) { return in_order_of_rows(pair_of(contacts, l)); };
     std::size_t low = 0, high = first_count_;
     while (low < high) {
@@ -200,8 +203,7 @@ bool CollisionSearch::is_contact(const PairKey& key, const Contacts& contacts) c
         else
             high = middle;
     }
-    if (low < first_count_ && pair_at(low) == listed) return true;
-    return std::binary_search(activated_.begin(), activated_.end(), listed);
+    return low < first_count_ && pair_at(low) == listed;
 }
 
 /// Whether displacements could use up the slack of an inactive pair along the normal of its slab.
@@ -230,17 +232,31 @@ bool CollisionSearch::is_violated(const PairKey& key, const StepGeometry& step, 
     return gap < append(key, before, nearest, norm(nearest.separation), after, step, points);
 }
 
+/// By rows, where pairs look for them: 0 for rods without contacts.
+void CollisionSearch::take_displacements(std::size_t rods, const EndConfiguration& end) {
+    if (displacement_.size() != rods) {
+        displacement_.assign(rods, {});
+        farthest_.assign(rods, 0.0F);
+        displaced_rows_.clear();
+    }
+    for (const std::uint32_t row : displaced_rows_) {
+        displacement_[row] = {};
+        farthest_[row] = 0.0F;
+    }
+    displaced_rows_.assign(end.rows.begin(), end.rows.end());
+    parallel_for(end.rows.size(), [&](std::size_t k) {
+        displacement_[end.rows[k]] = end.displacement[k];
+        farthest_[end.rows[k]] = end.displacement[k].farthest;
+    });
+}
+
 std::vector<PairKey> CollisionSearch::violated_pairs(const StepGeometry& step, const Contacts& contacts,
                                                      const EndConfiguration& end, bool thorough) {
-    displaced_.resize(step.rods.size());
-    parallel_for(displaced_.size(), [&](std::size_t i) {
-        const std::uint32_t local = end.local_index[i];
-        displaced_[i] = local == no_local_index ? 0.0F : end.displacement[local].farthest;
-    });
+    take_displacements(step.rods.size(), end);
     // Whether a pair is near enough to be among the inactive does not depend on the history of the list if neither rod
     // is displaced beyond the limit; the others wait for the thorough search.
     const double limit = step.ranges.displacement_limit;
-    const auto within_limit = [&](std::uint32_t row) { return displaced_[row] <= limit; };
+    const auto within_limit = [&](std::uint32_t row) { return farthest_[row] <= limit; };
     std::vector<std::vector<PairKey>> found(blocks_.size());
     const auto look = [&](std::size_t block, const PairKey& key) {
         if (!thorough && !(within_limit(key.i) && within_limit(key.j))) return;
@@ -251,8 +267,8 @@ std::vector<PairKey> CollisionSearch::violated_pairs(const StepGeometry& step, c
         parallel_for_parts(blocks_.size(), [&](std::size_t block) {
             for (const InactivePair& pair : blocks_[block].inactive) {
                 const std::uint32_t j = neighbours_.partner(pair_number(block, pair.in_block));
-                if (pair.slack >= displaced_[pair.i] + displaced_[j]) continue;
-                if (may_meet(pair, end.displacement_of(pair.i), end.displacement_of(j)))
+                if (pair.slack >= farthest_[pair.i] + farthest_[j]) continue;
+                if (may_meet(pair, displacement_[pair.i], displacement_[j]))
                     look(block, key_of(block, pair.i, pair.in_block, step.rods));
             }
         });
@@ -261,7 +277,7 @@ std::vector<PairKey> CollisionSearch::violated_pairs(const StepGeometry& step, c
     std::vector<NeighbourList::Overreach> farther;
     if (thorough) {
         for (const std::uint32_t row : end.rows)
-            if (!within_limit(row)) farther.push_back({row, displaced_[row] - limit});
+            if (!within_limit(row)) farther.push_back({row, farthest_[row] - limit});
     }
     if (!farther.empty()) neighbours_.widen(step.rods, step.box, reach_, farther);
     if (!farther.empty() || neighbours_.built_while_widened()) {

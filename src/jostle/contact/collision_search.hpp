@@ -86,6 +86,7 @@ private:
     PairKey key_of(std::size_t block, std::uint32_t i, std::size_t in_block, const Rods& rods) const {
         return in_order_of_ids(neighbours_.key(i, pair_number(block, in_block)), rods.id);
     }
+    void take_displacements(std::size_t rods, const EndConfiguration& end);
     void search_block(std::size_t block, const StepGeometry& step);
     void narrow_phase(std::uint32_t row, const PairKey& key, std::uint16_t in_block, const StepGeometry& step,
                       Found& found) const;
@@ -100,9 +101,11 @@ private:
     std::vector<double> reach_;      ///< (N) displacement + shift + displacement limit
     std::vector<RodBounds> bounds_;  ///< (N)
     std::vector<Found> blocks_;
-    std::vector<float> displaced_;    ///< (N) by forces at most, at the last search for violated pairs
-    std::size_t first_count_ = 0;     ///< contacts before any were activated
-    std::vector<PairKey> activated_;  ///< pairs of this step by rows, ascending
+    std::vector<Displacement> displacement_;     ///< (N) by forces, at the last search for violated pairs
+    std::vector<float> farthest_;                ///< (N) of these, in few bytes
+    std::vector<std::uint32_t> displaced_rows_;  ///< whose displacements are not 0
+    std::size_t first_count_ = 0;                ///< contacts before any were activated
+    std::vector<PairKey> activated_;             ///< pairs of this step by rows, ascending
 };
 
 }  // namespace jostle

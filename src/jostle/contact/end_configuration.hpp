@@ -44,11 +44,6 @@ struct EndConfiguration {
         const Vec3& axis = rods.axis[row];
         return rotated(axis, time_step * (known_velocity.angular[row] + cross(axis, velocity[local].axis_rate)));
     }
-    Displacement displacement_of(std::uint32_t row) const {
-        const std::uint32_t local = local_index[row];
-        return local == no_local_index ? Displacement{} : displacement[local];
-    }
-
     /// The pair as `pair_geometry` gives it.
     PairGeometry pair(const Box& box, const PairKey& key) const {
         return {centre(key.j) + box.displacement(key.image) - centre(key.i),

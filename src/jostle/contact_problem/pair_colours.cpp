@@ -36,6 +36,9 @@ const std::vector<std::vector<ContactPair>>& PairColours::extend(const ContactMa
         advance(i);
         if (j != i) advance(j);
     }
+    // In the order of contacts, so that neighbours in a colour are near each other in memory.
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+        if (colour_[p] < max_colours) by_colour_[colour_[p]].push_back(pairs_[p]);
     if (!beyond_.empty()) give_colours_beyond_most(contact_matrix);
     return by_colour_;
 }
@@ -54,6 +57,7 @@ void PairColours::list_new_pairs(const ContactMatrix& contact_matrix) {
         l = next;
     }
     coloured_ = ends.size();
+    colour_.assign(pairs_.size(), max_colours);
     priority_.resize(pairs_.size());
     parallel_for(pairs_.size(), [&](std::size_t p) {
         const ContactPair& pair = pairs_[p];
@@ -110,8 +114,8 @@ void PairColours::give_colour(std::uint32_t number) {
     }
     taken_[pair.i] |= std::uint64_t{1} << colour;
     taken_[pair.j] |= std::uint64_t{1} << colour;
+    colour_[number] = static_cast<std::uint8_t>(colour);
     if (by_colour_.size() <= colour) by_colour_.resize(colour + 1);
-    by_colour_[colour].push_back(pair);
 }
 
 /// The pair of a rod whose turn it was has its colour: the next may be ready.

@@ -46,6 +46,7 @@ private:
     // of the pairs that are taken in
     std::vector<ContactPair> pairs_;
     std::vector<std::uint64_t> priority_;  ///< (pairs)
+    std::vector<std::uint8_t> colour_;     ///< (pairs)
     std::vector<std::uint32_t> begin_;     ///< (n + 1) into turns_
     std::vector<Turn> turns_;              ///< of each local index, the next first
     std::vector<std::uint32_t> next_;      ///< (n) whose turn it is: an index into turns_

@@ -11,9 +11,15 @@ using Lanes = std::array<double, lanes>;
 
 /// The whole of a batch in parts that are exact: multiples of three units, and what is left of each number.
 struct Parts {
-    Lanes coarse{}, middle{}, fine{};
+    double coarse = 0.0, middle = 0.0, fine = 0.0;
     bool something_left = false;
 };
+
+double sum_of(const Lanes& numbers) {
+    double sum = 0.0;
+    for (const double one : numbers) sum += one;
+    return sum;
+}
 
 JOSTLE_VECTORISED double largest_magnitude(const double* numbers) {
     Lanes largest{};
@@ -47,7 +53,7 @@ JOSTLE_VECTORISED void split(const double* numbers, double coarse_shift, double 
             left[k + lane] = x;
             any_left[lane] += std::fabs(x);
         }
-    parts = {coarse, middle, fine, false};
+    parts = {sum_of(coarse), sum_of(middle), sum_of(fine), false};
     for (const double one : any_left) parts.something_left = parts.something_left || one != 0.0;
 }
 
@@ -60,9 +66,13 @@ void ExactSum::add_all(std::span<const double> numbers) {
         for (const double number : numbers) add(number);
     };
     if (numbers.size() < many) return one_by_one();
-    std::copy(numbers.begin(), numbers.end(), padded.begin());
-    std::fill(padded.begin() + static_cast<std::ptrdiff_t>(numbers.size()), padded.end(), 0.0);
-    const double largest = largest_magnitude(padded.data());
+    const double* all = numbers.data();
+    if (numbers.size() < batch) {
+        std::copy(numbers.begin(), numbers.end(), padded.begin());
+        std::fill(padded.begin() + static_cast<std::ptrdiff_t>(numbers.size()), padded.end(), 0.0);
+        all = padded.data();
+    }
+    const double largest = largest_magnitude(all);
     if (largest == 0.0) return;
     if (!(largest < 1e250 && largest > 1e-200)) return one_by_one();  // shifts would leave the range of doubles
     int exponent = 0;                                                 // largest < 2^exponent
@@ -73,12 +83,10 @@ void ExactSum::add_all(std::span<const double> numbers) {
     const auto shift = [&](int level) { return std::ldexp(1.5, exponent + width - level * (bits - width)); };
     std::array<double, batch> left;
     Parts parts;
-    split(padded.data(), shift(0), shift(1), shift(2), left.data(), parts);
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-        add(parts.coarse[lane]);
-        add(parts.middle[lane]);
-        add(parts.fine[lane]);
-    }
+    split(all, shift(0), shift(1), shift(2), left.data(), parts);
+    add(parts.coarse);
+    add(parts.middle);
+    add(parts.fine);
     if (!parts.something_left) return;
     for (const double one : left) add(one);
 }
