@@ -9,12 +9,6 @@ namespace {
 constexpr std::size_t lanes = 8;
 using Lanes = std::array<double, lanes>;
 
-/// The whole of a batch in parts that are exact: multiples of three units, and what is left of each number.
-struct Parts {
-    double coarse = 0.0, middle = 0.0, fine = 0.0;
-    bool something_left = false;
-};
-
 double sum_of(const Lanes& numbers) {
     double sum = 0.0;
     for (const double one : numbers) sum += one;
@@ -33,19 +27,22 @@ JOSTLE_VECTORISED double largest_magnitude(const double* numbers) {
     return all;
 }
 
+/// A batch as multiples of two units, whose sums are exact, and what is left of each number.
+struct Parts {
+    double coarse = 0.0, fine = 0.0;
+    bool something_left = false;
+};
+
 /// (x + shift) - shift is x rounded to a multiple of the unit in the last place of `shift`, and what is left is exact.
-/// Of the multiples a batch's sum is exact, too, for it stays below 2^53 units.
-JOSTLE_VECTORISED void split(const double* numbers, double coarse_shift, double middle_shift, double fine_shift,
-                             double* left, Parts& parts) {
-    Lanes coarse{}, middle{}, fine{}, any_left{};
+/// Of the multiples a batch's sum is exact, too, for it stays below 2^53 units. `left` may be `numbers`.
+JOSTLE_VECTORISED void split(const double* numbers, double coarse_shift, double fine_shift, double* left,
+                             Parts& parts) {
+    Lanes coarse{}, fine{}, any_left{};
     for (std::size_t k = 0; k < ExactSum::batch; k += lanes)
         for (std::size_t lane = 0; lane < lanes; ++lane) {
             double x = numbers[k + lane];
             double multiple = (x + coarse_shift) - coarse_shift;
             coarse[lane] += multiple;
-            x -= multiple;
-            multiple = (x + middle_shift) - middle_shift;
-            middle[lane] += multiple;
             x -= multiple;
             multiple = (x + fine_shift) - fine_shift;
             fine[lane] += multiple;
@@ -53,8 +50,7 @@ JOSTLE_VECTORISED void split(const double* numbers, double coarse_shift, double 
             left[k + lane] = x;
             any_left[lane] += std::fabs(x);
         }
-    parts = {sum_of(coarse), sum_of(middle), sum_of(fine), false};
-    for (const double one : any_left) parts.something_left = parts.something_left || one != 0.0;
+    parts = {sum_of(coarse), sum_of(fine), sum_of(any_left) != 0.0};
 }
 
 }  // namespace
@@ -79,15 +75,17 @@ void ExactSum::add_all(std::span<const double> numbers) {
     std::frexp(largest, &exponent);
     constexpr int width = std::bit_width(batch), bits = 52;
     // Multiples of 2^(exponent + width - 52), each at most 2^exponent: a batch stays below 2^52 of them. What is left
-    // is at most half a unit, and so on.
+    // is at most half a unit, and so on. Two units hold numbers that differ by less than 2^30 in size, four nearly all.
     const auto shift = [&](int level) { return std::ldexp(1.5, exponent + width - level * (bits - width)); };
     std::array<double, batch> left;
-    Parts parts;
-    split(all, shift(0), shift(1), shift(2), left.data(), parts);
-    add(parts.coarse);
-    add(parts.middle);
-    add(parts.fine);
-    if (!parts.something_left) return;
+    for (int level = 0; level < 4; level += 2) {
+        Parts parts;
+        split(all, shift(level), shift(level + 1), left.data(), parts);
+        add(parts.coarse);
+        add(parts.fine);
+        if (!parts.something_left) return;
+        all = left.data();
+    }
     for (const double one : left) add(one);
 }
 
