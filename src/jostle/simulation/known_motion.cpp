@@ -35,14 +35,14 @@ void find_known_motion(const State& state, std::span<const std::unique_ptr<Motio
                        const MobilityOperator& mobility, const StepContext& context, KnownMotion& known) {
     const Rods& rods = state.rods;
     known.velocity.resize(rods.size());
-    auto& [linear, angular] = known.velocity;
+    std::vector<Vec3>&linear = known.velocity.linear, &angular = known.velocity.angular;
     parallel_for(rods.size(), [&](std::size_t i) { linear[i] = angular[i] = Vec3{}; });
     for (const auto& motion : motions) motion->add_velocities(known.velocity, rods, mobility, context);
     add_velocities_of_forces(state, motions, mobility, context, known);
 
     known.end.resize(rods.size());
     known.displacement.resize(rods.size());
-    auto& [centre, axis] = known.end;
+    std::vector<Vec3>&centre = known.end.centre, &axis = known.end.axis;
     parallel_for(rods.size(), [&](std::size_t i) {
         centre[i] = rods.centre[i] + context.time_step * linear[i];
         axis[i] = rotated(rods.axis[i], context.time_step * angular[i]);

@@ -195,7 +195,7 @@ Contacts Simulation::relinearised(const ContactProblem& problem, const EndConfig
 void Simulation::advance() {
     Rods& rods = state_.rods;
     if (growth_) growth_->slow_down(rods, solution_.rods, solution_.forces, settings_.time_step);
-    auto& [centre, axis] = known_.end;
+    std::vector<Vec3>&centre = known_.end.centre, &axis = known_.end.axis;
     const double dt = settings_.time_step;
     parallel_for(solution_.rods.size(), [&](std::size_t k) {
         const std::uint32_t row = solution_.rods[k];
