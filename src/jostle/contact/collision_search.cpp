@@ -78,20 +78,36 @@ double CollisionSearch::find(const StepGeometry& step, Contacts& contacts) {
     });
     neighbours_.set_travel(step.ranges.skin);
     neighbours_.update(rods, step.box, reach_);
-    blocks_.resize(neighbours_.block_count());
-    parallel_for_parts(blocks_.size(), [&](std::size_t block) { search_block(block, step); });
+    search_blocks(step);
     contacts.clear();
-    contacts.append(blocks_.size(), [&](std::size_t block) -> const Contacts& { return blocks_[block].contacts; });
+    contacts.append(shares_.size(), [&](std::size_t share) -> const Contacts& { return shares_[share].contacts; });
     first_count_ = contacts.size();
     activated_.clear();
-    return parallel_max(blocks_.size(), 0.0, [&](std::size_t block) { return blocks_[block].overlap; });
+    double overlap = 0.0;
+    for (const Found& share : shares_) overlap = std::max(overlap, share.overlap);
+    return overlap;
 }
 
-void CollisionSearch::search_block(std::size_t block, const StepGeometry& step) {
-    thread_local Found found;
-    found.contacts.clear();
-    found.inactive.clear();
-    found.overlap = 0.0;
+void CollisionSearch::search_blocks(const StepGeometry& step) {
+    shares_.resize(static_cast<std::size_t>(parallel::team_size(false)));
+    for (Found& share : shares_) {
+        share.contacts.clear();
+        share.inactive.clear();
+        share.overlap = 0.0;
+    }
+    in_block_.resize(neighbours_.block_count());
+    parallel::for_shares(in_block_.size(), in_block_.size() <= 1, [&](std::size_t begin, std::size_t end) {
+        const auto number = static_cast<std::size_t>(parallel::thread_number());
+        Found& share = shares_[number];
+        for (std::size_t block = begin; block < end; ++block) {
+            const std::size_t known = share.inactive.size();
+            search_block(block, step, share);
+            in_block_[block] = {number, known, share.inactive.size()};
+        }
+    });
+}
+
+void CollisionSearch::search_block(std::size_t block, const StepGeometry& step, Found& found) {
     std::array<std::uint32_t, Batch::size> rows;
     std::array<std::uint16_t, Batch::size> in_block;
     std::size_t count = 0;
@@ -132,7 +148,6 @@ void CollisionSearch::search_block(std::size_t block, const StepGeometry& step) 
         if (++count == Batch::size) sort_out();
     });
     sort_out();
-    blocks_[block] = found;
 }
 
 void CollisionSearch::narrow_phase(std::uint32_t row, const PairKey& key, std::uint16_t in_block,
@@ -257,15 +272,16 @@ std::vector<PairKey> CollisionSearch::violated_pairs(const StepGeometry& step, c
     // is displaced beyond the limit; the others wait for the thorough search.
     const double limit = step.ranges.displacement_limit;
     const auto within_limit = [&](std::uint32_t row) { return farthest_[row] <= limit; };
-    std::vector<std::vector<PairKey>> found(blocks_.size());
+    std::vector<std::vector<PairKey>> found(in_block_.size());
     const auto look = [&](std::size_t block, const PairKey& key) {
         if (!thorough && !(within_limit(key.i) && within_limit(key.j))) return;
         if (is_violated(key, step, contacts, end)) found[block].push_back(key);
     };
     if (!neighbours_.built_while_widened()) {
         // Most inactive pairs have more slack than any displacement: those are passed over by this alone, in few bytes.
-        parallel_for_parts(blocks_.size(), [&](std::size_t block) {
-            for (const InactivePair& pair : blocks_[block].inactive) {
+        parallel_for_parts(in_block_.size(), [&](std::size_t block) {
+            const auto [share, begin, end_of_block] = in_block_[block];
+            for (const InactivePair& pair : std::span(shares_[share].inactive).subspan(begin, end_of_block - begin)) {
                 const std::uint32_t j = neighbours_.partner(pair_number(block, pair.in_block));
                 if (pair.slack >= farthest_[pair.i] + farthest_[j]) continue;
                 if (may_meet(pair, displacement_[pair.i], displacement_[j]))

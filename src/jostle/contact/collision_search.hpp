@@ -74,10 +74,14 @@ private:
             normal;  ///< of a slab of that width between the rods, from i to the other, in units of normal_unit
         std::uint16_t in_block;  ///< its number in a block of the neighbour list; good until the list is built again
     };
-    struct Found {  ///< in one block of the neighbour list
+    struct Found {  ///< by one thread, block after block of the neighbour list
         Contacts contacts;
         std::vector<InactivePair> inactive;
         double overlap = 0.0;
+    };
+
+    struct InBlock {  ///< the inactive pairs of a block: a stretch of those of a share
+        std::size_t share, begin, end;
     };
 
     static std::size_t pair_number(std::size_t block, std::size_t in_block) {
@@ -87,7 +91,8 @@ private:
         return in_order_of_ids(neighbours_.key(i, pair_number(block, in_block)), rods.id);
     }
     void take_displacements(std::size_t rods, const EndConfiguration& end);
-    void search_block(std::size_t block, const StepGeometry& step);
+    void search_blocks(const StepGeometry& step);
+    void search_block(std::size_t block, const StepGeometry& step, Found& found);
     void narrow_phase(std::uint32_t row, const PairKey& key, std::uint16_t in_block, const StepGeometry& step,
                       Found& found) const;
     double append(const PairKey& key, const PairGeometry& before, const NearestPoints& nearest, double distance,
@@ -98,9 +103,10 @@ private:
                      const EndConfiguration& end) const;
 
     NeighbourList neighbours_{0.0};
-    std::vector<double> reach_;      ///< (N) displacement + shift + displacement limit
-    std::vector<RodBounds> bounds_;  ///< (N)
-    std::vector<Found> blocks_;
+    std::vector<double> reach_;                  ///< (N) displacement + shift + displacement limit
+    std::vector<RodBounds> bounds_;              ///< (N)
+    std::vector<Found> shares_;                  ///< (threads), in the order of their blocks
+    std::vector<InBlock> in_block_;              ///< (blocks)
     std::vector<Displacement> displacement_;     ///< (N) by forces, at the last search for violated pairs
     std::vector<float> farthest_;                ///< (N) of these, in few bytes
     std::vector<std::uint32_t> displaced_rows_;  ///< whose displacements are not 0

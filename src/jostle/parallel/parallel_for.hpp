@@ -41,6 +41,9 @@ void suit_thread_count(int count);
 /// The part of a loop that the calling thread is to do.
 std::pair<std::size_t, std::size_t> own_share(std::size_t count);
 
+/// Number of the calling thread in the loop that it takes part in, from 0; shares follow each other in this order.
+int thread_number();
+
 /// Loops shorter than this run on the calling thread: starting the others would take longer than the work.
 inline constexpr std::size_t serial_limit = 512;
 

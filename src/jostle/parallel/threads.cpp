@@ -127,6 +127,10 @@ int team_size(bool on_one) {
     return count;
 }
 
+int thread_number() {
+    return omp_get_thread_num();
+}
+
 std::pair<std::size_t, std::size_t> own_share(std::size_t count) {
     const auto threads = static_cast<std::size_t>(omp_get_num_threads());
     const auto own = static_cast<std::size_t>(omp_get_thread_num());
