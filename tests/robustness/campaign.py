@@ -1,6 +1,7 @@
 """What the campaigns share: a case that failed, running the command within limits, and what every run of it must keep."""
 
 import os
+import re
 import resource
 import signal
 import subprocess
@@ -17,6 +18,9 @@ PATIENCE = 10.0  # by the clock it may take so many times as long: other program
 
 class Defect(Exception):
     """A promise of the program that a case broke, in one sentence."""
+
+
+MISTAKE = re.compile(rb"\S+\.toml:\d+:\d+: ")  # FILE:LINE:COLUMN
 
 
 def limit(seconds):
@@ -53,20 +57,26 @@ def require_ending(result, *allowed):
     if result.returncode not in allowed:
         raise Defect(f"exit status {result.returncode}, allowed {allowed}: {errors[:500]}")
     if result.returncode in (BAD_INPUT, DISK):
-        require_one_clear_line(result.stderr)
+        require_clear_lines(result.stderr)
 
 
-def require_one_clear_line(stderr):
-    """`jostle: ...`, valid text without control characters, not endless, and more than a name."""
+def require_clear_lines(stderr):
+    """`jostle: ...`, and one line for each further mistake of a scene, with its place; each as `require_clear_line` has it."""
     notices = tuple(notice.encode() for notice in NOTICES)
     lines = [line for line in stderr.split(b"\n") if line and not line.startswith(notices)]
-    if len(lines) != 1 or not lines[0].startswith(b"jostle: ") or len(lines[0]) < 20:
-        raise Defect(f"a refusal is not one line: {stderr[:500]!r}")
-    if len(lines[0]) > 2000:
-        raise Defect(f"a refusal of {len(lines[0])} bytes: {stderr[:200]!r}")
+    if not lines or not lines[0].startswith(b"jostle: ") or any(MISTAKE.match(line) is None for line in lines[1:]):
+        raise Defect(f"a refusal is not one line, nor one for each mistake: {stderr[:500]!r}")
+    for line in lines:
+        require_clear_line(line)
+
+
+def require_clear_line(line):
+    """Valid text without control characters, not endless, and more than a name."""
+    if not 20 <= len(line) <= 2000:
+        raise Defect(f"a refusal of {len(line)} bytes: {line[:200]!r}")
     try:
-        text = lines[0].decode()
+        text = line.decode()
     except UnicodeDecodeError:
-        raise Defect(f"a refusal that is no text: {stderr[:500]!r}") from None
+        raise Defect(f"a refusal that is no text: {line[:500]!r}") from None
     if any(ord(sign) < 32 or ord(sign) == 127 for sign in text):
-        raise Defect(f"a refusal with control characters: {stderr[:500]!r}")
+        raise Defect(f"a refusal with control characters: {line[:500]!r}")

@@ -13,6 +13,8 @@ struct Hdf5Failure {
     std::string operation;  ///< what was tried, a clause after "cannot"
     std::string reason;     ///< the innermost message of HDF5's error stack
     int error_number = 0;   ///< errno if the stack tells one
+
+    bool is_out_of_memory() const { return reason.starts_with("memory allocation failed"); }
 };
 
 /// Keeps HDF5 from printing its error stack while it lives, and from complaining when the program ends.

@@ -19,22 +19,22 @@ void apply_to_rod(const RodMobility& mobility, const Vec3& axis, const Vec3& for
     angular = mobility.rotational * (torque - dot(axis, torque) * axis);
 }
 
-/// Rods of one length and diameter.
-struct KindOfRod {
-    double length, diameter;
-    RodMobility own, root;  ///< the coefficients and their square roots
-};
-
 }  // namespace
 
 /// The coefficients of all rods. Equal neighbours are common (all rods alike, synchronous growth): they share one kind.
 struct DragCoefficients {
+    /// Rods of one length and diameter.
+    struct Kind {
+        double length, diameter;
+        RodMobility own, root;  ///< the coefficients and their square roots
+    };
+
     std::vector<std::uint32_t> kind_of;  ///< (N)
-    std::vector<KindOfRod> kinds;
+    std::vector<Kind> kinds;
 
     DragCoefficients(const Rods& rods, const DragLaw& law);
 
-    const KindOfRod& of(std::size_t i) const { return kinds[kind_of[i]]; }
+    const Kind& of(std::size_t i) const { return kinds[kind_of[i]]; }
 
     bool fit(const Rods& rods) const {
         if (kind_of.size() != rods.size()) return false;

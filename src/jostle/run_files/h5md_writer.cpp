@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <new>
 #include <optional>
 #include <vector>
 
@@ -180,6 +181,7 @@ void write_h5md(const std::string& journal_path, const std::string& h5md_path, c
         rename_file(temporary, h5md_path);
     } catch (const Hdf5Failure& failure) {
         remove_file_if_present(temporary);
+        if (failure.is_out_of_memory()) throw std::bad_alloc();
         if (failure.error_number != 0) throw DiskError(h5md_path, failure.operation, failure.error_number);
         throw DiskError(h5md_path, failure.operation, "HDF5: " + failure.reason);
     } catch (...) {
