@@ -14,13 +14,11 @@ from jostle_command import BAD_INPUT, DISK, JOSTLE, NOTICES  # noqa: E402
 MOST_MEMORY = 2 * 1024**3  # bytes of address space that one command may take
 MOST_SECONDS = 60.0  # of processor time
 PATIENCE = 10.0  # by the clock it may take so many times as long: other programs may keep the machine busy
+MISTAKE = re.compile(rb"\S+\.toml:\d+:\d+: ")  # begins the line of a further mistake: file, line, column
 
 
 class Defect(Exception):
     """A promise of the program that a case broke, in one sentence."""
-
-
-MISTAKE = re.compile(rb"\S+\.toml:\d+:\d+: ")  # FILE:LINE:COLUMN
 
 
 def limit(seconds):
