@@ -1,5 +1,6 @@
 """What the tests of the command share: scenes as text, running, and looking at what a run left."""
 
+import functools
 import copy
 import hashlib
 import json
@@ -148,10 +149,17 @@ def rows_of(path):
     return max(0, path.read_bytes().count(b"\n") - 1) if path.exists() else 0
 
 
+@functools.lru_cache(maxsize=8)
+def header_and_rows(text):
+    """Of a CSV file: its header and its rows, read once."""
+    header, *rows = (line.split(",") for line in text.splitlines())
+    return header, rows
+
+
 def column(path, name):
-    lines = path.read_text().splitlines()
-    place = lines[0].split(",").index(name)
-    return [float(line.split(",")[place]) for line in lines[1:]]
+    header, rows = header_and_rows(path.read_text())
+    place = header.index(name)
+    return [float(row[place]) for row in rows]
 
 
 def mean(folder, name):

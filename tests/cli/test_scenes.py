@@ -28,6 +28,10 @@ MICRO = {
 }
 
 
+# Checkpoints are synced, which takes longer than the steps between them.
+LONG = changed(with_steps(SPHERES, 12000), output={"checkpoint_every": 5000})
+
+
 def read(folder, name):
     """A JSON file, strictly: NaN and Infinity are no JSON."""
     def refuse(word):
@@ -70,7 +74,7 @@ def complete(folder, scene, columns=SERIES):
 
 def test_summary_is_that_of_the_series(tmp_path):
     """Without equilibration the means are those of all rows; and the series keeps its own relations."""
-    folder, summary = complete(tmp_path, with_steps(SPHERES, 12000))  # 2.5 diffusion times
+    folder, summary = complete(tmp_path, LONG)  # 2.5 diffusion times
     assert summary["equilibrated"] and summary["equilibrium"]["verdict"] == "reached"
     assert summary["equilibrium"]["diffusion_times"] == pytest.approx(24 / (3 * math.pi), rel=1e-9)
     for name in ("Z", "pressure", "pressure_collision", "nematic_order"):
@@ -143,7 +147,7 @@ def test_equilibration_is_left_out(tmp_path):
 
 def test_equilibration_is_found(tmp_path):
     """From a lattice, and for as long as it takes: until the window covers two diffusion times, 18.8."""
-    scene = changed(SPHERES, rods={"start": "lattice"}, time={"equilibration": "auto", "production": 8.0})
+    scene = changed(LONG, rods={"start": "lattice"}, time={"equilibration": "auto", "production": 8.0})
     folder, summary = complete(tmp_path, scene)
     rows = len(column(folder / "series.csv", "Z"))
     assert summary["equilibrated"] and summary["Z"]["standard_error"] > 0
@@ -155,7 +159,7 @@ def test_equilibration_is_found(tmp_path):
 
 def test_isotropic_stress_has_no_ratio_to_speak_of(tmp_path):
     """The largest over the smallest principal stress of spheres is above 1 by noise: no error bar, but the three values."""
-    _, summary = complete(tmp_path, with_steps(SPHERES, 12000))
+    _, summary = complete(tmp_path, LONG)
     principal = summary["principal_stresses_collision"]
     assert principal["differ"] is False and principal["mean"] == sorted(principal["mean"])
     assert all(error > 0.0 for error in principal["standard_error"])

@@ -9,6 +9,14 @@
 
 namespace jostle::test {
 
+/// How far spheres are from their lattice, in units of its constant. Under a sanitizer one of them: networks take fifty
+/// times as long there.
+#ifdef JOSTLE_SANITIZED
+inline constexpr double jitters[] = {0.15};
+#else
+inline constexpr double jitters[] = {0.05, 0.15, 0.3};
+#endif
+
 /// The contact problem of spheres on a jittered cubic lattice, of very different sizes, so that A_ll differ tenfold.
 ///
 /// A = D^T M D with M_i = 1/diameter_i, as of Stokes drag. The lattice is not periodic, so a solution exists.

@@ -285,7 +285,7 @@ TEST_CASE("a start at the solution costs one application, one near it saves a gr
 
 TEST_CASE("networks of spheres: all solvers agree; applications of A are told") {
     const unsigned seed = 11;
-    for (const double jitter : {0.05, 0.15, 0.3}) {
+    for (const double jitter : jostle::test::jitters) {
         const SphereNetwork network(8, jitter, seed);
         const LcpProblem problem{network, network.constant()};
         std::vector<double> first;

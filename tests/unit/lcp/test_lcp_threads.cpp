@@ -11,8 +11,8 @@ using namespace jostle::test;
 
 TEST_CASE("networks of spheres: the same bits for any number of threads") {
     const int threads = parallel::thread_count();
-    for (const double jitter : {0.05, 0.15, 0.3}) {
-        const SphereNetwork network(8, jitter, 11);
+    for (const double jitter : jitters) {
+        const SphereNetwork network(6, jitter, 11);
         const LcpProblem problem{network, network.constant()};
         for_each_solver([&](const Solver& solver) {
             LcpSettings settings = tight(solver);
