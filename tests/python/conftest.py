@@ -63,6 +63,13 @@ def command(folder, *arguments):
                           timeout=60)
 
 
+def succeed(*command, **surroundings):
+    """What the command prints, which must end well."""
+    result = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=250, **surroundings)
+    assert result.returncode == 0, result.stdout + result.stderr
+    return result.stdout
+
+
 def finished_run(folder, text):
     (folder / "scene.toml").write_text(text)
     result = command(folder, "run", "scene.toml", "--out", "run", "--threads", "1", "--quiet")

@@ -2,19 +2,12 @@
 
 import os
 import re
-import subprocess
 from pathlib import Path
 
 import pytest
-from conftest import RODS
+from conftest import RODS, succeed
 
 ROOT = Path(__file__).resolve().parents[2]
-
-
-def succeed(*command, **surroundings):
-    result = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=250, **surroundings)
-    assert result.returncode == 0, result.stdout + result.stderr
-    return result.stdout
 
 
 @pytest.fixture(scope="module")

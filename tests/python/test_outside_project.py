@@ -8,18 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import RODS
+from conftest import RODS, succeed
 
 import jostle
 
 ROOT = Path(__file__).resolve().parents[2]
 PROJECT = ROOT / "tests" / "outside_project"
-
-
-def succeed(*command):
-    result = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=250)
-    assert result.returncode == 0, result.stdout + result.stderr
-    return result.stdout
 
 
 def block_of_the_guide(word):
