@@ -9,11 +9,8 @@
 #include <utility>
 
 #include "jostle/disk/durable_file.hpp"
-#include "jostle/run_files/h5md_writer.hpp"
-#include "jostle/run_files/version.hpp"
+#include "jostle/measurement/h5md_attributes.hpp"
 #include "jostle/scene/rod_size.hpp"
-#include "jostle/scene/scene_motion.hpp"
-#include "jostle/scene/units.hpp"
 #include "jostle/setup/largest_overlap.hpp"
 #include "jostle/setup/step_failure.hpp"
 #include "post_mortem.hpp"
@@ -32,20 +29,11 @@ constexpr std::chrono::minutes longest_between_checkpoints{10};
 constexpr double kept_between_steps = 1.0, kept_within_step = 0.5, largest_part_kept = 0.25;
 
 H5mdAttributes trajectory_attributes(const RunScene& run_scene, const std::string& command_line) {
-    const Scene& scene = run_scene.scene;
-    H5mdAttributes attributes;
-    attributes.version = program_version;
+    H5mdAttributes attributes = h5md_attributes(run_scene.scene);
     attributes.scene = run_scene.text;
     attributes.resolved_scene = run_scene.resolved;
-    attributes.seed = scene.seed;
     attributes.command_line = command_line;
     attributes.host = host_name();
-    attributes.unit_system = scene.units.system == UnitSystem::micro ? "SI" : "reduced";
-    attributes.length_unit = unit_of(scene, dimension::length);
-    attributes.time_unit = unit_of(scene, dimension::time);
-    attributes.stress_unit = unit_of(scene, dimension::stress);
-    attributes.energy_unit = unit_of(scene, dimension::energy);
-    attributes.kT = thermal_energy(scene);
     return attributes;
 }
 

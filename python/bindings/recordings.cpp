@@ -1,9 +1,6 @@
 #include "bindings/simulation.hpp"
+#include "jostle/measurement/h5md_attributes.hpp"
 #include "jostle/rods/space_filling_order.hpp"
-#include "jostle/run_files/h5md_writer.hpp"
-#include "jostle/run_files/version.hpp"
-#include "jostle/scene/scene_motion.hpp"
-#include "jostle/scene/units.hpp"
 #include "jostle/scene_file/scene_writer.hpp"
 
 namespace jostle::python {
@@ -11,17 +8,9 @@ namespace jostle::python {
 namespace {
 
 H5mdAttributes attributes_of(const Scene& scene) {
-    H5mdAttributes attributes;
-    attributes.version = program_version;
+    H5mdAttributes attributes = h5md_attributes(scene);
     attributes.scene = attributes.resolved_scene = to_toml(scene);
-    attributes.seed = scene.seed;
     attributes.command_line = "jostle.Simulation.record";
-    attributes.unit_system = scene.units.system == UnitSystem::micro ? "SI" : "reduced";
-    attributes.length_unit = unit_of(scene, dimension::length);
-    attributes.time_unit = unit_of(scene, dimension::time);
-    attributes.stress_unit = unit_of(scene, dimension::stress);
-    attributes.energy_unit = unit_of(scene, dimension::energy);
-    attributes.kT = thermal_energy(scene);
     return attributes;
 }
 
