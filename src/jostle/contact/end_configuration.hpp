@@ -21,7 +21,18 @@ struct Displacement {
     float inaccuracy = 0.0F;  ///< of centre and end together, at most
 };
 
-/// Rods at the end of a step in which these contact forces act, q + dt (U_known + U_C): those with contacts where the
+/// Centre and axis of a rod at the end of a step, q + dt (U_known + U_C), the axis by the exponential map (theory 2.4).
+inline Vec3 centre_at_end(const Rods& rods, std::uint32_t row, const Velocities& known,
+                          const ContactVelocity& by_contacts, double time_step) {
+    return rods.centre[row] + time_step * (known.linear[row] + by_contacts.centre);
+}
+inline Vec3 axis_at_end(const Rods& rods, std::uint32_t row, const Velocities& known,
+                        const ContactVelocity& by_contacts, double time_step) {
+    const Vec3& axis = rods.axis[row];
+    return rotated(axis, time_step * (known.angular[row] + cross(axis, by_contacts.axis_rate)));
+}
+
+/// Rods at the end of a step in which these contact forces act: those with contacts where the
 /// forces take them, the others where the known motion does. Worked out when asked for: few are. Holds references.
 struct EndConfiguration {
     const Rods& rods;                  ///< as the step begins
@@ -36,22 +47,17 @@ struct EndConfiguration {
     Vec3 centre(std::uint32_t row) const {
         const std::uint32_t local = local_index[row];
         if (local == no_local_index) return known.centre[row];
-        return rods.centre[row] + time_step * (known_velocity.linear[row] + velocity[local].centre);
+        return centre_at_end(rods, row, known_velocity, velocity[local], time_step);
     }
     Vec3 axis(std::uint32_t row) const {
         const std::uint32_t local = local_index[row];
         if (local == no_local_index) return known.axis[row];
-        const Vec3& axis = rods.axis[row];
-        return rotated(axis, time_step * (known_velocity.angular[row] + cross(axis, velocity[local].axis_rate)));
+        return axis_at_end(rods, row, known_velocity, velocity[local], time_step);
     }
-    /// The pair as `pair_geometry` gives it.
+    /// The pair as it is there.
     PairGeometry pair(const Box& box, const PairKey& key) const {
-        return {centre(key.j) + box.displacement(key.image) - centre(key.i),
-                axis(key.i),
-                axis(key.j),
-                0.5 * rods.length[key.i],
-                0.5 * rods.length[key.j],
-                0.5 * (rods.diameter[key.i] + rods.diameter[key.j])};
+        const Vec3 between = centre(key.j) + box.displacement(key.image) - centre(key.i);
+        return pair_geometry(rods, key.i, key.j, between, axis(key.i), axis(key.j));
     }
 };
 

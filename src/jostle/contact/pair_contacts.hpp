@@ -16,11 +16,21 @@ struct PairGeometry {
     double radii;           ///< (D_i + D_j)/2
 };
 
+/// Rods i and j with these axes, whose centres are `between` apart.
+inline PairGeometry pair_geometry(const Rods& rods, std::size_t i, std::size_t j, const Vec3& between,
+                                  const Vec3& axis_i, const Vec3& axis_j) {
+    return {between,
+            axis_i,
+            axis_j,
+            0.5 * rods.length[i],
+            0.5 * rods.length[j],
+            0.5 * (rods.diameter[i] + rods.diameter[j])};
+}
+
 /// Rods i and j, the latter displaced, when they lie at `centre` and `axis`.
 inline PairGeometry pair_geometry(const Rods& rods, std::size_t i, std::size_t j, const Vec3& displacement,
                                   std::span<const Vec3> centre, std::span<const Vec3> axis) {
-    return {centre[j] + displacement - centre[i],       axis[i], axis[j], 0.5 * rods.length[i], 0.5 * rods.length[j],
-            0.5 * (rods.diameter[i] + rods.diameter[j])};
+    return pair_geometry(rods, i, j, centre[j] + displacement - centre[i], axis[i], axis[j]);
 }
 
 /// The nearest points of a pair's segments.

@@ -6,7 +6,6 @@
 #include "jostle/contact_problem/solver_method.hpp"
 #include "jostle/growth/growth_law.hpp"
 #include "jostle/lcp/lcp_problem.hpp"
-#include "jostle/motion/motion.hpp"
 
 namespace jostle {
 

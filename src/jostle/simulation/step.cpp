@@ -8,7 +8,6 @@
 #include "jostle/contact/wca_forces.hpp"
 #include "jostle/contact_problem/contact_solver.hpp"
 #include "jostle/contact_problem/previous_forces.hpp"
-#include "jostle/math/rotation.hpp"
 #include "jostle/motion/springs.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/simulation/simulation.hpp"
@@ -191,7 +190,8 @@ Contacts Simulation::relinearised(const ContactProblem& problem, const EndConfig
     return contacts;
 }
 
-// Theory 2.4: q^{k+1} = q^k + dt (U_known + U_C), axes by the exponential map; then what happens between two steps.
+// Theory 2.4: rods with contacts go where forces take them, the others where the known motion does; then what happens
+// between two steps.
 void Simulation::advance() {
     Rods& rods = state_.rods;
     if (growth_) growth_->slow_down(rods, solution_.rods, solution_.forces, settings_.time_step);
@@ -199,9 +199,8 @@ void Simulation::advance() {
     const double dt = settings_.time_step;
     parallel_for(solution_.rods.size(), [&](std::size_t k) {
         const std::uint32_t row = solution_.rods[k];
-        const auto& [linear, axis_rate] = solution_.velocities[k];
-        centre[row] = rods.centre[row] + dt * (known_.velocity.linear[row] + linear);
-        axis[row] = rotated(rods.axis[row], dt * (known_.velocity.angular[row] + cross(rods.axis[row], axis_rate)));
+        centre[row] = centre_at_end(rods, row, known_.velocity, solution_.velocities[k], dt);
+        axis[row] = axis_at_end(rods, row, known_.velocity, solution_.velocities[k], dt);
     });
     rods.centre.swap(centre);
     rods.axis.swap(axis);
