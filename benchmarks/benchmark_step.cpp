@@ -8,9 +8,13 @@
 #include <cstring>
 #include <ctime>
 #include <fstream>
+#include <functional>
+#include <optional>
 #include <stdexcept>
 
 #include "jostle/parallel/parallel_for.hpp"
+#include "jostle/scene_file/same_scene.hpp"
+#include "jostle/setup/assemble.hpp"
 #include "settled.hpp"
 
 using namespace jostle;
@@ -18,13 +22,14 @@ using namespace jostle;
 namespace {
 
 const char* const usage =
-    "usage: benchmark_step [--state NAME]... [--count N]... [--threads T]... [--steps S]\n"
+    "usage: benchmark_step [--state NAME]... [--count N]... [--run FOLDER]... [--threads T]... [--steps S]\n"
     "Measures every combination; without --state all states, without --count 2000 and 20000, without --threads 1.\n"
+    "--run: goes on from the checkpoint of that run, and writes nothing there; without --state no other is measured.\n"
     "Times are means over the steps; median_step_ns is the median. --steps: 0 (default) as many as take about a "
     "second, at least 16.\n";
 
 struct Options {
-    std::vector<std::string> states;
+    std::vector<std::string> states, runs;
     std::vector<std::uint64_t> counts;
     std::vector<int> threads;
     std::uint64_t steps = 0;
@@ -47,6 +52,8 @@ Options read_options(int count, char** words) {
         const std::string value = words[k + 1];
         if (name == "--state")
             options.states.push_back(crowd_named(value).name);
+        else if (name == "--run")
+            options.runs.push_back(value);
         else if (name == "--count")
             options.counts.push_back(number_from<std::uint64_t>(value));
         else if (name == "--threads")
@@ -56,7 +63,7 @@ Options read_options(int count, char** words) {
         else
             throw std::invalid_argument("unknown option " + name);
     }
-    if (options.states.empty())
+    if (options.states.empty() && options.runs.empty())
         for (const Crowd& crowd : all_crowds()) options.states.push_back(crowd.name);
     if (options.counts.empty()) options.counts = {2000, 20000};
     if (options.threads.empty()) options.threads = {1};
@@ -89,14 +96,23 @@ double seconds_of(const StepReport& report) {
     return sum;
 }
 
-void measure(const std::string& state, std::uint64_t count, const std::vector<int>& threads, std::uint64_t steps) {
+/// The simulation of a run, as its last checkpoint has it.
+std::unique_ptr<Simulation> of_run(const std::string& folder) {
+    std::optional<Checkpoint> checkpoint = latest_checkpoint(folder);
+    if (!checkpoint) throw std::invalid_argument(folder + " holds no checkpoint");
+    const Scene scene = scene_of(*checkpoint, folder);
+    return std::make_unique<Simulation>(assemble(scene, std::move(checkpoint->state)));
+}
+
+void measure(const std::string& state, const std::function<std::unique_ptr<Simulation>()>& prepared,
+             const std::vector<int>& threads, std::uint64_t steps) {
     const double bytes_before = resident_bytes();
     parallel::set_thread_count(1);
-    const auto simulation = settled(crowd_named(state), count);
+    const auto simulation = prepared();
     parallel::set_thread_count(*std::max_element(threads.begin(), threads.end()));
     double once = 0.0;
     for (int k = 0; k < 20; ++k) once = seconds_of(checked_step(*simulation));
-    const auto rods = static_cast<double>(simulation->rods().size());
+    const auto rods = static_cast<double>(simulation->rods().size());  // of cells, those there are at first
     for (const int thread_count : threads) {
         parallel::set_thread_count(thread_count);
         const std::uint64_t wanted =
@@ -140,7 +156,12 @@ int main(int count, char** words) try {
     for (const char* phase : step_phase_names) fmt::print(",{}_ns", phase);
     fmt::print(",step_ns,median_step_ns,contacts_per_body,active_per_body,iterations,solves,bytes_per_body,waiting\n");
     for (const std::string& state : options.states)
-        for (const std::uint64_t bodies : options.counts) measure(state, bodies, options.threads, options.steps);
+        for (const std::uint64_t bodies : options.counts)
+            measure(
+                state, [&] { return settled(crowd_named(state), bodies); }, options.threads, options.steps);
+    for (const std::string& run : options.runs)
+        measure(
+            run, [&] { return of_run(run); }, options.threads, options.steps);
     return 0;
 } catch (const std::exception& error) {
     fmt::print(stderr, "benchmark_step: {}\n{}", error.what(), usage);
