@@ -30,7 +30,7 @@ Json worst_contacts(const Simulation& simulation, Rank&& rank) {
     for (std::size_t k = 0; k < count; ++k) {
         const std::size_t l = order[k];
         const Contact& contact = contacts.contact[l];
-        list.push_back({{"id_i", simulation.contact_ids()[contact.i]},
+        list.push_back({{"id_i", id_of_body(contact.i, simulation.contact_ids())},
                         {"id_j", simulation.contact_ids()[contact.j]},
                         {"image", contacts.image[l]},
                         {"gap", contact.gap},

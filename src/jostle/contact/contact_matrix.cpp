@@ -26,7 +26,8 @@ void ContactMatrix::extend() {
     };
     rod_pairs_.reserve(contacts_.size());
     for (std::size_t l = rod_pairs_.size(); l < contacts_.size(); ++l) {
-        const std::uint32_t i = local_index_of(contacts_.contact[l].i);
+        const std::uint32_t body = contacts_.contact[l].i;
+        const std::uint32_t i = is_fixed(body) ? no_local_index : local_index_of(body);
         rod_pairs_.push_back({i, local_index_of(contacts_.contact[l].j)});
     }
     begin_.clear();
@@ -34,23 +35,23 @@ void ContactMatrix::extend() {
 
 void ContactMatrix::list_incidence() const {
     begin_.assign(rows_.size() + 1, 0);
-    incidence_.resize(2 * size());
     for (const RodPair& ends : rod_pairs_) {
-        ++begin_[ends.i + 1];
+        if (ends.i != no_local_index) ++begin_[ends.i + 1];
         ++begin_[ends.j + 1];
     }
     for (std::size_t k = 0; k < rows_.size(); ++k) begin_[k + 1] += begin_[k];
+    incidence_.resize(begin_.back());
     std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
     for (std::size_t l = 0; l < size(); ++l) {
         const auto side = static_cast<std::uint32_t>(2 * l);
-        incidence_[next[rod_pairs_[l].i]++] = side;
+        if (rod_pairs_[l].i != no_local_index) incidence_[next[rod_pairs_[l].i]++] = side;
         incidence_[next[rod_pairs_[l].j]++] = side + 1;
     }
     const auto key = [this](std::uint32_t side) {
-        const RodPair& ends = rod_pairs_[side / 2];
+        const std::size_t l = side / 2;
         const bool is_j = side % 2 == 1;
-        const PairKey key_of_pair = pair_of(contacts_, side / 2);
-        return std::tuple(id_of(is_j ? ends.i : ends.j), is_j ? key_of_pair.turned().image : key_of_pair.image, side);
+        const PairKey key_of_pair = pair_of(contacts_, l);
+        return std::tuple(is_j ? id_of_i(l) : id_of_j(l), is_j ? key_of_pair.turned().image : key_of_pair.image, side);
     };
     parallel_for(rows_.size(), [&](std::size_t k) {
         std::sort(incidence_.begin() + begin_[k], incidence_.begin() + begin_[k + 1],
@@ -76,7 +77,9 @@ void ContactMatrix::apply(std::span<const double> gamma, std::span<ContactForce>
 
 void ContactMatrix::apply_transpose(std::span<const ContactVelocity> velocities, std::span<double> rates) const {
     parallel_for(size(), [&](std::size_t l) {
-        rates[l] = gap_rate(contacts_.contact[l], velocities[rod_pairs_[l].i], velocities[rod_pairs_[l].j]);
+        const auto [i, j] = rod_pairs_[l];
+        rates[l] =
+            gap_rate(contacts_.contact[l], i == no_local_index ? ContactVelocity{} : velocities[i], velocities[j]);
     });
 }
 

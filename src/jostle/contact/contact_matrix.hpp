@@ -41,7 +41,8 @@ void add_contact_force(double gamma, const ContactLike& contact, ContactForce& o
 ///     D gamma:  force = sum of +- gamma normal,  moment = sum of +- arm gamma normal,
 ///     D^T U:    normal.(U_j + arm_j W_j - U_i - arm_i W_i).
 /// Rods without contacts have no part unless asked for: the others are numbered apart ("local index", in the order of
-/// their first contacts). Holds a reference: the contacts must outlive it, and may only grow, as `extend` is then told.
+/// their first contacts). Fixed bodies have none. Holds a reference: the contacts must outlive it, and may only grow,
+/// as `extend` is then told.
 class ContactMatrix {
 public:
     enum class Include { rods_with_contacts, all_rods };
@@ -53,7 +54,7 @@ public:
     /// Takes in the contacts that have been appended since.
     void extend();
 
-    /// Where a contact's rods stand among those with contacts.
+    /// Where a contact's rods stand among those with contacts; i of a fixed body: `no_local_index`.
     struct RodPair {
         std::uint32_t i, j;
     };
@@ -63,7 +64,9 @@ public:
     std::span<const std::uint32_t> rods() const { return rows_; }      ///< (n) row of each
     std::span<const RodPair> rod_pairs() const { return rod_pairs_; }  ///< (contacts) local indices
 
-    std::uint64_t id_of(std::uint32_t local) const { return ids_[rows_[local]]; }
+    /// Of the bodies of contact l.
+    std::uint64_t id_of_i(std::size_t l) const { return id_of_body(contacts_.contact[l].i, ids_); }
+    std::uint64_t id_of_j(std::size_t l) const { return ids_[contacts_.contact[l].j]; }
 
     /// (N) local index of each row, or `no_local_index`.
     std::span<const std::uint32_t> local_index() const { return local_index_; }
@@ -72,7 +75,14 @@ public:
     /// other.
     void apply(std::span<const double> gamma, std::span<ContactForce> forces) const;
 
-    /// rates = D^T velocities: the velocity at which each gap opens.
+    /// Adds D gamma of contact l to the forces on its rods.
+    void add_force(std::size_t l, double gamma, std::span<ContactForce> forces) const {
+        ContactForce on_fixed_body;
+        const auto [i, j] = rod_pairs_[l];
+        add_contact_force(gamma, contacts_.contact[l], i == no_local_index ? on_fixed_body : forces[i], forces[j]);
+    }
+
+    /// rates = D^T velocities: the velocity at which each gap opens. Fixed bodies stay.
     void apply_transpose(std::span<const ContactVelocity> velocities, std::span<double> rates) const;
 
 private:
@@ -87,7 +97,7 @@ private:
     /// other rods' ids, of the same other rod as the contacts stand. Each rod gathers its own forces, in this order, so
     /// that the sum depends neither on threads nor on where rods stand in memory. Made when first needed.
     mutable std::vector<std::uint32_t> begin_;      ///< (n + 1)
-    mutable std::vector<std::uint32_t> incidence_;  ///< (2 contacts)
+    mutable std::vector<std::uint32_t> incidence_;  ///< (sides that are rods)
 };
 
 }  // namespace jostle

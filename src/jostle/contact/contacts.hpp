@@ -7,27 +7,35 @@
 #include <vector>
 
 #include "jostle/parallel/parallel_for.hpp"
+#include "jostle/rods/body.hpp"
 #include "jostle/rods/rods.hpp"
 
 namespace jostle {
 
-/// A pair of points, one on each of two rods, that may come to touch within the step.
+/// A pair of points, one on each of two bodies, that may come to touch within the step: two rods, or a body that is
+/// fixed and a rod, which is then j.
 ///
 ///        normal: unit vector from i to j            arm: signed coordinate of the point on the rod's
 ///     i ===o======        gap > 0: apart                 segment, from its centre along its axis, so
 ///          |  gap                                        the arm vector is arm * axis
 ///     =====o====== j      gap < 0: overlap
 struct Contact {
-    std::uint32_t i = 0;  ///< row of the rod with the smaller id
-    std::uint32_t j = 0;  ///< of the other; i == j where a rod meets its own periodic image
+    std::uint32_t i = 0;  ///< row of the rod with the smaller id, or a fixed body (body.hpp)
+    std::uint32_t j = 0;  ///< row of the other; i == j where a rod meets its own periodic image
     Vec3 normal;
-    double arm_i = 0.0;
+    double arm_i = 0.0;  ///< 0 of a fixed body
     double arm_j = 0.0;
-    double gap = 0.0;          ///< distance of the segments' points less (D_i + D_j)/2
+    double gap = 0.0;          ///< distance of the segments' points less `contact_radii`
     double shifted_gap = 0.0;  ///< the gap after the known motion of the step, less that at which they touch (GapShift)
 };
 
-/// Which rods meet, and in which image of j.
+/// How far apart the points of a contact are where its bodies touch: (D_i + D_j)/2, or D_j/2 from a fixed body.
+inline double contact_radii(const Contact& contact, const Rods& rods) {
+    return is_fixed(contact.i) ? 0.5 * rods.diameter[contact.j]
+                               : 0.5 * (rods.diameter[contact.i] + rods.diameter[contact.j]);
+}
+
+/// Which bodies meet, and in which image of j.
 struct PairKey {
     std::uint32_t i, j;
     Image image;
@@ -47,14 +55,14 @@ inline PairKey in_order_of_rows(const PairKey& key) {
     return key.i <= key.j ? key : key.turned();
 }
 
-/// Of a rod without contacts: those that have some are numbered among themselves (ContactMatrix).
+/// Of a rod without contacts, and of a fixed body: rods that have some are numbered among themselves (ContactMatrix).
 inline constexpr std::uint32_t no_local_index = 0xFFFFFFFF;
 
 /// Which points a contact follows while the rods move.
 enum class ContactFeature : std::uint8_t {
     nearest,       ///< the nearest points of the two segments
     end_of_i,      ///< the end of segment i at arm_i, and the point of segment j nearest to it
-    end_of_j,      ///< the end of segment j at arm_j, and the point of segment i nearest to it
+    end_of_j,      ///< the end of segment j at arm_j, and the point of segment (or fixed body) i nearest to it
     relinearised,  ///< the points that are nearest where contact forces take the rods (relinearised_contacts.hpp)
 };
 
@@ -110,7 +118,7 @@ inline PairKey pair_of(const Contacts& contacts, std::size_t l) {
     return {contacts.contact[l].i, contacts.contact[l].j, contacts.image[l]};
 }
 
-/// The contacts in the order of their rods' ids, of a pair in that of its images, in one as they stand; if forces are
+/// The contacts in the order of their bodies' ids, of a pair in that of its images, in one as they stand; if forces are
 /// given, those with a force above 0.
 std::vector<std::size_t> order_of_ids(const Contacts& contacts, std::span<const std::uint64_t> ids,
                                       std::optional<std::span<const double>> gamma = std::nullopt);

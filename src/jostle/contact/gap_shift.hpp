@@ -9,7 +9,7 @@
 
 namespace jostle {
 
-/// The gap below which two rods touch: 0, or with the time-step correction s(kappa) sqrt(2 kT dt A_ll) (theory, eq.
+/// The gap below which two bodies touch: 0, or with the time-step correction s(kappa) sqrt(2 kT dt A_ll) (theory, eq.
 /// 3.5). Holds references to arrays of all rods.
 struct GapShift {
     std::span<const double> part;           ///< (N) of the bounds below; 0 without the correction
@@ -17,7 +17,7 @@ struct GapShift {
     std::span<const RodMobility> own = {};  ///< (N) mobility of each rod; (0) without the correction
     double kT = 0.0, time_step = 0.0;
 
-    /// What `exact` is at most, of any contact of rods i and j.
+    /// What `exact` is at most, of any contact of rods i and j; of a rod and a fixed body it is the rod's part.
     double bound(std::uint32_t i, std::uint32_t j) const {
         return i == j ? 2.0 * part[i] : std::sqrt(part[i] * part[i] + part[j] * part[j]);
     }
@@ -25,7 +25,10 @@ struct GapShift {
     double exact(const Contact& contact) const {
         if (own.empty()) return 0.0;
         const std::uint32_t i = contact.i, j = contact.j;
-        return brownian_shift(kT, time_step, relative_mobility(contact, {axis[i], own[i]}, {axis[j], own[j]}));
+        const MobileRod rod_j = {axis[j], own[j]};
+        return brownian_shift(kT, time_step,
+                              is_fixed(i) ? point_mobility(rod_j, contact.normal, contact.arm_j)
+                                          : relative_mobility(contact, {axis[i], own[i]}, rod_j));
     }
 };
 

@@ -11,7 +11,7 @@ Contacts relinearised_contacts(const Contacts& contacts, const Box& box, const E
     std::vector<std::uint8_t> overlaps(contacts.size(), 0);
     parallel_for(contacts.size(), [&](std::size_t l) {
         const PairKey key = pair_of(contacts, l);
-        if (l > 0 && key == pair_of(contacts, l - 1)) return;
+        if (is_fixed(key.i) || (l > 0 && key == pair_of(contacts, l - 1))) return;
         const PairGeometry pair = end.pair(box, key);
         overlaps[l] = gap_of_contact(contacts.contact[l], ContactFeature::nearest, pair) < -max_overlap ? 1 : 0;
     });

@@ -25,7 +25,7 @@ std::vector<double> wca_forces(const Contacts& contacts, const Rods& rods, doubl
         const Contact& contact = contacts.contact[l];
         const double share = sharers(contacts, l);
         if (share == 0.0) return;
-        const double diameter = 0.5 * (rods.diameter[contact.i] + rods.diameter[contact.j]);
+        const double diameter = contact_radii(contact, rods);
         forces[l] = wca_force(contact.gap + diameter, diameter, energy) / share;
     });
     return forces;

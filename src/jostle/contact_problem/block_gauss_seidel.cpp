@@ -91,9 +91,7 @@ void BlockGaussSeidel<Real>::refresh(ContactSolution& solution) {
     const ContactMatrix& contact_matrix = matrix_.contact_matrix();
     for_all_forces([&](std::uint32_t l, double gamma) {
         solution.gamma[l] = gamma;
-        if (gamma == 0.0) return;
-        const auto [i, j] = contact_matrix.rod_pairs()[l];
-        add_contact_force(gamma, contact_matrix.contacts().contact[l], solution.forces[i], solution.forces[j]);
+        if (gamma != 0.0) contact_matrix.add_force(l, gamma, solution.forces);
     });
     parallel_for(solution.forces.size(), [&](std::size_t local) {
         const ContactForce& force = solution.forces[local];
@@ -139,6 +137,8 @@ ScalarBlock<Real> BlockGaussSeidel<Real>::contact_of(const ContactPair& pair) co
     const auto [i, j, l, count] = pair;
     ContactForce on_i, on_j;
     add_contact_force(1.0, matrix_.contact_matrix().contacts().contact[l], on_i, on_j);
+    const bool against_fixed_body = i == no_local_index;
+    if (against_fixed_body) on_i = {};
     const auto answer = [&](std::uint32_t local, const ContactForce& to) {
         return SpatialVector<Real>(velocity_of(matrix_.rods()[local], to.force, to.moment));
     };
@@ -146,14 +146,14 @@ ScalarBlock<Real> BlockGaussSeidel<Real>::contact_of(const ContactPair& pair) co
     ScalarBlock<Real> contact;
     contact.jacobian_i = SpatialVector<Real>(on_i);
     contact.jacobian_j = SpatialVector<Real>(on_j);
-    contact.response_i = answer(i, on_i);
+    contact.response_i = against_fixed_body ? SpatialVector<Real>{} : answer(i, on_i);
     contact.response_j = answer(j, on_j);
     contact.b = static_cast<Real>(b_[l]);
     contact.gamma = static_cast<Real>(start_[l]);
     contact.compliance = static_cast<Real>(matrix_.compliance(l));
     contact.diagonal = static_cast<Real>(diagonal);
     contact.inverse_diagonal = static_cast<Real>(diagonal > 0.0 ? 1.0 / diagonal : 0.0);
-    contact.i = i;
+    contact.i = against_fixed_body ? j : i;
     contact.j = j;
     contact.number = l;
     return contact;
@@ -177,7 +177,8 @@ CoupledBlock BlockGaussSeidel<Real>::pair_of(const ContactPair& touching) const 
         add_contact_force(1.0, pair.points[c], on_i, on_j);
         if (i == j)
             on_i = on_j = {on_i.force + on_j.force, on_i.moment + on_j.moment};  // own image: one rod feels both
-        const ContactVelocity of_i = velocity_of(matrix_.rods()[i], on_i.force, on_i.moment);
+        const ContactVelocity of_i =
+            i == no_local_index ? ContactVelocity{} : velocity_of(matrix_.rods()[i], on_i.force, on_i.moment);
         const ContactVelocity of_j = velocity_of(matrix_.rods()[j], on_j.force, on_j.moment);
         for (std::uint32_t a = 0; a < count; ++a) pair.matrix[a][c] = gap_rate(pair.points[a], of_i, of_j);
         pair.matrix[c][c] += pair.points[c].compliance;
@@ -190,7 +191,7 @@ template <class Item>
 void BlockGaussSeidel<Real>::find_active(Group<Item>& group) {
     group.sort_out(0, [&](const Item& item) {
         const auto moves = [&](std::uint32_t local) {
-            return static_cast<double>(last_change_[local]) > convergence_threshold_;
+            return local != no_local_index && static_cast<double>(last_change_[local]) > convergence_threshold_;
         };
         if (!last_change_.empty() && !moves(item.i) && !moves(item.j)) return false;
         return may_push(item, velocities_.data(), activation_threshold_);

@@ -34,7 +34,8 @@ double solve(ScalarBlock<Real>& contact, double omega, const LocalRods<Real>& lo
 
 template <class Real>
 double solve(CoupledBlock& pair, double omega, const LocalRods<Real>& local_rods) {
-    const ContactVelocity i = local_rods.velocities[pair.i].velocity(), j = local_rods.velocities[pair.j].velocity();
+    const ContactVelocity i = velocity_of_body(pair.i, local_rods.velocities);
+    const ContactVelocity j = velocity_of_body(pair.j, local_rods.velocities);
     Points velocity{}, target{};
     bool idle = true;
     for (std::uint32_t a = 0; a < pair.count; ++a) {
@@ -58,7 +59,7 @@ double solve(CoupledBlock& pair, double omega, const LocalRods<Real>& local_rods
         local_rods.velocities[local].lanes +=
             SpatialVector<Real>(velocity_of(local_rods.rods[local], by.force, by.moment)).lanes;
     };
-    push(pair.i, on_i);
+    if (pair.i != no_local_index) push(pair.i, on_i);
     push(pair.j, on_j);
     return largest;
 }
@@ -71,7 +72,8 @@ double solve_all(std::span<Item> items, double omega, const LocalRods<Real>& loc
         largest = std::max(largest, change);
         if (local_rods.last_change == nullptr) continue;
         for (const std::uint32_t local : {item.i, item.j})
-            local_rods.last_change[local] = std::max(local_rods.last_change[local], static_cast<float>(change));
+            if (local != no_local_index)
+                local_rods.last_change[local] = std::max(local_rods.last_change[local], static_cast<float>(change));
     }
     return largest;
 }

@@ -37,7 +37,8 @@ Real sum_of_products(const SpatialVector<Real>& a, const SpatialVector<Real>& b,
     return (u[0] + u[2]) + (u[1] + u[3]);
 }
 
-/// One contact as a sweep needs it: its column of D, and of M D, for each of its two rods.
+/// One contact as a sweep needs it: its column of D, and of M D, for each of its two rods. Of a contact with a fixed
+/// body that side is the rod itself, with columns of 0: nothing is read or written that other contacts of it share.
 template <class Real>
 struct ScalarBlock {
     SpatialVector<Real> jacobian_i, jacobian_j, response_i, response_j;
@@ -70,12 +71,18 @@ struct CoupledBlock : BlockMatrix {
             return b + compliance * gamma + gap_rate(*this, rod_i, rod_j);
         }
     };
-    std::uint32_t i, j;   ///< local indices
+    std::uint32_t i, j;   ///< local indices; i of a fixed body: no_local_index
     std::uint32_t first;  ///< number of the first contact; those of the others follow
     std::array<Point, max_points> points;
 
     std::span<const Point> touching() const { return std::span(points).first(count); }
 };
+
+/// Fixed bodies stay.
+template <class Real>
+ContactVelocity velocity_of_body(std::uint32_t local, const SpatialVector<Real>* velocities) {
+    return local == no_local_index ? ContactVelocity{} : velocities[local].velocity();
+}
 
 /// Whether the contacts push, or a gap opens by less than `limit`.
 template <class Real>
@@ -84,7 +91,7 @@ bool may_push(const ScalarBlock<Real>& contact, const SpatialVector<Real>* veloc
 }
 template <class Real>
 bool may_push(const CoupledBlock& pair, const SpatialVector<Real>* velocities, double limit) {
-    const ContactVelocity i = velocities[pair.i].velocity(), j = velocities[pair.j].velocity();
+    const ContactVelocity i = velocity_of_body(pair.i, velocities), j = velocity_of_body(pair.j, velocities);
     return std::ranges::any_of(pair.touching(), [&](const CoupledBlock::Point& point) {
         return point.gamma > 0.0 || point.gap_velocity(i, j) < limit;
     });

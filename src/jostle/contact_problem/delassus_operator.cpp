@@ -7,8 +7,8 @@ namespace jostle {
 namespace {
 
 PairOfPoints points_of(const Contact& contact, const Rods& rods) {
-    const double distance = contact.gap + 0.5 * (rods.diameter[contact.i] + rods.diameter[contact.j]);
-    return {contact.i, contact.j, contact.arm_i, contact.arm_j, contact.normal, distance};
+    return {contact.i,     contact.j,      contact.arm_i,
+            contact.arm_j, contact.normal, contact.gap + contact_radii(contact, rods)};
 }
 
 }  // namespace
@@ -30,12 +30,17 @@ void DelassusOperator::extend() {
     diagonal_.resize(contact_matrix_.size());
     parallel_for(diagonal_.size() - known_contacts, [&](std::size_t k) {
         const std::size_t l = known_contacts + k;
-        const auto [i, j] = contact_matrix_.rod_pairs()[l];
-        const Contact& contact = contact_matrix_.contacts().contact[l];
-        const double own = couples_rods() ? mobility_.relative_mobility(points_of(contact, all_rods_))
-                                          : relative_mobility(contact, rods_[i], rods_[j]);
-        diagonal_[l] = (1.0 + compliance_) * own;
+        diagonal_[l] = (1.0 + compliance_) * relative_mobility_of(l);
     });
+}
+
+/// (D^T M D)_ll
+double DelassusOperator::relative_mobility_of(std::size_t l) const {
+    const auto [i, j] = contact_matrix_.rod_pairs()[l];
+    const Contact& contact = contact_matrix_.contacts().contact[l];
+    if (i == no_local_index) return point_mobility(rods_[j], contact.normal, contact.arm_j);
+    return couples_rods() ? mobility_.relative_mobility(points_of(contact, all_rods_))
+                          : relative_mobility(contact, rods_[i], rods_[j]);
 }
 
 void DelassusOperator::apply(std::span<const double> gamma, std::span<double> rates) const {

@@ -42,6 +42,7 @@ public:
                     std::span<ContactVelocity> velocities) const;
 
 private:
+    double relative_mobility_of(std::size_t l) const;
     void apply_coupling_mobility(std::span<const ContactForce> forces, std::span<ContactVelocity> velocities) const;
 
     const ContactMatrix& contact_matrix_;

@@ -21,6 +21,11 @@ std::uint64_t priority_of(std::uint64_t id_i, std::uint64_t id_j, const Image& i
     return hash;
 }
 
+/// Whether i is a rod beside j: neither a fixed body, nor j itself, which meets its own image.
+bool has_other_rod(const ContactPair& pair) {
+    return pair.i != no_local_index && pair.i != pair.j;
+}
+
 }  // namespace
 
 const std::vector<std::vector<ContactPair>>& PairColours::extend(const ContactMatrix& contact_matrix) {
@@ -33,8 +38,8 @@ const std::vector<std::vector<ContactPair>>& PairColours::extend(const ContactMa
         ready_.pop_back();
         give_colour(pair);
         const auto [i, j, first, count] = pairs_[pair];
-        advance(i);
-        if (j != i) advance(j);
+        if (has_other_rod(pairs_[pair])) advance(i);
+        advance(j);
     }
     // In the order of contacts, so that neighbours in a colour are near each other in memory.
     for (std::size_t p = 0; p < pairs_.size(); ++p)
@@ -44,25 +49,23 @@ const std::vector<std::vector<ContactPair>>& PairColours::extend(const ContactMa
 }
 
 void PairColours::list_new_pairs(const ContactMatrix& contact_matrix) {
-    const auto ends = contact_matrix.rod_pairs();
+    const auto rods = contact_matrix.rod_pairs();
     const Contacts& contacts = contact_matrix.contacts();
     pairs_.clear();
-    for (auto l = static_cast<std::uint32_t>(coloured_); l < ends.size();) {
-        const auto [i, j] = ends[l];
+    for (auto l = static_cast<std::uint32_t>(coloured_); l < rods.size();) {
+        const auto [i, j] = rods[l];
         std::uint32_t next = l + 1;
-        while (next < ends.size() && next < l + max_points && ends[next].i == i && ends[next].j == j &&
-               contacts.image[next] == contacts.image[l])
-            ++next;
+        while (next < rods.size() && next < l + max_points && pair_of(contacts, next) == pair_of(contacts, l)) ++next;
         pairs_.push_back({i, j, l, next - l});
         l = next;
     }
-    coloured_ = ends.size();
+    coloured_ = rods.size();
     colour_.assign(pairs_.size(), max_colours);
     priority_.resize(pairs_.size());
     parallel_for(pairs_.size(), [&](std::size_t p) {
         const ContactPair& pair = pairs_[p];
-        priority_[p] =
-            priority_of(contact_matrix.id_of(pair.i), contact_matrix.id_of(pair.j), contacts.image[pair.first]);
+        priority_[p] = priority_of(contact_matrix.id_of_i(pair.first), contact_matrix.id_of_j(pair.first),
+                                   contacts.image[pair.first]);
     });
 }
 
@@ -72,16 +75,16 @@ void PairColours::list_turns(const ContactMatrix& contact_matrix) {
     taken_.resize(count, 0);
     begin_.assign(count + 1, 0);
     for (const ContactPair& pair : pairs_) {
-        ++begin_[pair.i + 1];
-        if (pair.j != pair.i) ++begin_[pair.j + 1];
+        if (has_other_rod(pair)) ++begin_[pair.i + 1];
+        ++begin_[pair.j + 1];
     }
     for (std::size_t k = 0; k < count; ++k) begin_[k + 1] += begin_[k];
     turns_.resize(begin_.back());
     next_.assign(begin_.begin(), begin_.end() - 1);
     for (std::uint32_t p = 0; p < pairs_.size(); ++p) {
         const ContactPair& pair = pairs_[p];
-        turns_[next_[pair.i]++] = {priority_[p], p};
-        if (pair.j != pair.i) turns_[next_[pair.j]++] = {priority_[p], p};
+        if (has_other_rod(pair)) turns_[next_[pair.i]++] = {priority_[p], p};
+        turns_[next_[pair.j]++] = {priority_[p], p};
     }
     parallel_for(count, [&](std::size_t local) {
         const auto first = turns_.begin() + begin_[local], last = turns_.begin() + begin_[local + 1];
@@ -91,7 +94,8 @@ void PairColours::list_turns(const ContactMatrix& contact_matrix) {
     });
     ready_.clear();
     for (std::uint32_t p = 0; p < pairs_.size(); ++p)
-        if (turns_[next_[pairs_[p].i]].pair == p && turns_[next_[pairs_[p].j]].pair == p) ready_.push_back(p);
+        if (is_next_of(pairs_[p].j, p) && (!has_other_rod(pairs_[p]) || is_next_of(pairs_[p].i, p)))
+            ready_.push_back(p);
 }
 
 bool PairColours::comes_before(const Turn& a, const Turn& b, const ContactMatrix& contact_matrix) const {
@@ -99,7 +103,7 @@ bool PairColours::comes_before(const Turn& a, const Turn& b, const ContactMatrix
     // The same rods in several images, or at points that were found one after the other; or, once in 10^19, others.
     const auto key = [&](const Turn& turn) {
         const ContactPair& pair = pairs_[turn.pair];
-        return std::tuple(contact_matrix.id_of(pair.i), contact_matrix.id_of(pair.j),
+        return std::tuple(contact_matrix.id_of_i(pair.first), contact_matrix.id_of_j(pair.first),
                           contact_matrix.contacts().image[pair.first], pair.first);
     };
     return key(a) < key(b);
@@ -107,12 +111,14 @@ bool PairColours::comes_before(const Turn& a, const Turn& b, const ContactMatrix
 
 void PairColours::give_colour(std::uint32_t number) {
     const ContactPair& pair = pairs_[number];
-    const auto colour = static_cast<std::size_t>(std::countr_one(taken_[pair.i] | taken_[pair.j]));
+    const bool two_rods = has_other_rod(pair);
+    const std::uint64_t taken = taken_[pair.j] | (two_rods ? taken_[pair.i] : 0);
+    const auto colour = static_cast<std::size_t>(std::countr_one(taken));
     if (colour >= max_colours) {  // a rod with very many neighbours
         beyond_.push_back(number);
         return;
     }
-    taken_[pair.i] |= std::uint64_t{1} << colour;
+    if (two_rods) taken_[pair.i] |= std::uint64_t{1} << colour;
     taken_[pair.j] |= std::uint64_t{1} << colour;
     colour_[number] = static_cast<std::uint8_t>(colour);
     if (by_colour_.size() <= colour) by_colour_.resize(colour + 1);
@@ -123,8 +129,8 @@ void PairColours::advance(std::uint32_t local) {
     if (++next_[local] == begin_[local + 1]) return;
     const std::uint32_t p = turns_[next_[local]].pair;
     const ContactPair& pair = pairs_[p];
-    const std::uint32_t other = pair.i == local ? pair.j : pair.i;
-    if (next_[other] < begin_[other + 1] && turns_[next_[other]].pair == p) ready_.push_back(p);
+    const std::uint32_t other = pair.i == local || !has_other_rod(pair) ? pair.j : pair.i;
+    if (next_[other] < begin_[other + 1] && is_next_of(other, p)) ready_.push_back(p);
 }
 
 /// Each alone, in order.

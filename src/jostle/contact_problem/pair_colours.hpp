@@ -8,14 +8,15 @@
 
 namespace jostle {
 
-/// The contacts of one pair of rods in one image, which follow each other.
+/// The contacts of one pair of bodies in one image, which follow each other.
 struct ContactPair {
-    std::uint32_t i, j;          ///< local indices
+    std::uint32_t i, j;          ///< local indices; i of a fixed body: no_local_index
     std::uint32_t first, count;  ///< contacts
 };
 
-/// Colours for pairs of rods in contact, no two of a colour with a rod in common: greedily, every pair takes the first
-/// colour that neither of its rods has yet, in the order of a hash of the ids of its rods.
+/// Colours for pairs of bodies in contact, no two of a colour with a rod in common: greedily, every pair takes the
+/// first colour that neither of its rods has yet, in the order of a hash of the ids of its bodies. A fixed body takes
+/// no colour: what it pushes does not hang together through it.
 ///
 /// The colours depend on who touches whom, and on nothing else: neither on where rods stand in memory nor on the order
 /// of contacts. (M. T. Jones, P. E. Plassmann, SIAM J. Sci. Comput. 14, 654 (1993): a pair has its colour once all
@@ -36,6 +37,7 @@ private:
     void list_new_pairs(const ContactMatrix& contact_matrix);
     void list_turns(const ContactMatrix& contact_matrix);
     bool comes_before(const Turn& a, const Turn& b, const ContactMatrix& contact_matrix) const;
+    bool is_next_of(std::uint32_t local, std::uint32_t pair) const { return turns_[next_[local]].pair == pair; }
     void give_colour(std::uint32_t pair);
     void advance(std::uint32_t local);
     void give_colours_beyond_most(const ContactMatrix& contact_matrix);

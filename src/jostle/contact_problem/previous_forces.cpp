@@ -17,7 +17,7 @@ PreviousForce force_of(const Contacts& contacts, std::size_t l, std::span<const 
     const ContactFeature feature = contacts.feature[l];
     const bool upper = (feature == ContactFeature::end_of_i && contact.arm_i > 0.0) ||
                        (feature == ContactFeature::end_of_j && contact.arm_j > 0.0);
-    return {ids[contact.i], ids[contact.j], feature, upper, gamma};
+    return {id_of_body(contact.i, ids), ids[contact.j], feature, upper, gamma};
 }
 
 /// Forces by rods and feature: open addressing, half full at most.

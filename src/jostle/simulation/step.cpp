@@ -148,9 +148,10 @@ std::vector<double> Simulation::gap_velocities(const Contacts& contacts) const {
             b[l] = contact.shifted_gap / dt;
             return;
         }
-        const auto velocity = [&](std::uint32_t row) {
-            return ContactVelocity{known_.velocity.linear[row],
-                                   cross(known_.velocity.angular[row], state_.rods.axis[row])};
+        const auto velocity = [&](std::uint32_t body) {
+            return is_fixed(body) ? ContactVelocity{}
+                                  : ContactVelocity{known_.velocity.linear[body],
+                                                    cross(known_.velocity.angular[body], state_.rods.axis[body])};
         };
         b[l] = contact.gap / dt + gap_rate(contact, velocity(contact.i), velocity(contact.j));
     });
@@ -184,9 +185,9 @@ Contacts Simulation::relinearised(const ContactProblem& problem, const EndConfig
     const double tolerance = settings_.lcp.residual == LcpResidual::length ? settings_.lcp.tolerance : 0.0;
     Contacts contacts = relinearised_contacts(problem.contacts(), state_.box, end,
                                               max_overlap_of_turning * sizes_.mean_diameter + tolerance);
-    const auto velocity = [&](std::uint32_t row) { return end.velocity[end.local_index[row]]; };
     for (Contact& contact : contacts.contact)
-        contact.shifted_gap -= settings_.time_step * gap_rate(contact, velocity(contact.i), velocity(contact.j));
+        contact.shifted_gap -=
+            settings_.time_step * gap_rate(contact, end.velocity_of(contact.i), end.velocity_of(contact.j));
     return contacts;
 }
 

@@ -12,9 +12,12 @@ CollisionMoments collision_moments(const Contacts& contacts, std::span<const dou
     CollisionMoments moments;
     for (const std::size_t l : order_of_ids(contacts, rods.id, gamma)) {
         const Contact& contact = contacts.contact[l];
-        const Vec3 partner = rods.centre[contact.j] + box.displacement(contacts.image[l]);
-        moments.pairs.push_back({rods.id[contact.i], rods.id[contact.j], 0.5 * (rods.centre[contact.i] + partner),
-                                 centre_separation(contact, rods, axis, distance), gamma[l] * contact.normal});
+        const Vec3 separation = centre_separation(contact, rods, axis, distance);
+        const Vec3 centre_j = rods.centre[contact.j] + box.displacement(contacts.image[l]);
+        const Vec3 middle =
+            is_fixed(contact.i) ? centre_j - 0.5 * separation : 0.5 * (rods.centre[contact.i] + centre_j);
+        moments.pairs.push_back(
+            {id_of_body(contact.i, rods.id), rods.id[contact.j], middle, separation, gamma[l] * contact.normal});
     }
     std::vector<std::size_t> order(torques.rods.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

@@ -14,7 +14,7 @@ namespace jostle {
 struct CollisionMoments {
     /// A contact with a force: (r_j - r_i) F.
     struct Pair {
-        std::uint64_t id_i, id_j;
+        std::uint64_t id_i, id_j;  ///< of bodies (`id_of_body`)
         Vec3 middle;      ///< of the line between the two centres of mass; may lie beyond an edge of a periodic box
         Vec3 separation;  ///< r_j - r_i
         Vec3 force;       ///< on rod j

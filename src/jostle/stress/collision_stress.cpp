@@ -18,9 +18,9 @@ void require_rows(const char* key, std::size_t rows, std::size_t needed, const c
                       .place = {}});
 }
 
-/// From the contact's point on the centre line of rod i to that of rod j.
+/// From the contact's point on the centre line of rod i, or on the fixed body, to that on the centre line of rod j.
 Vec3 between_centre_lines(const Contact& contact, const Rods& rods, ContactDistance distance) {
-    const double radii = 0.5 * (rods.diameter[contact.i] + rods.diameter[contact.j]);
+    const double radii = contact_radii(contact, rods);
     return (distance == ContactDistance::touching ? radii : radii + contact.gap) * contact.normal;
 }
 
@@ -45,8 +45,8 @@ void require_moment_rows(const Contacts& contacts, std::span<const double> gamma
 }
 
 Vec3 centre_separation(const Contact& contact, const Rods& rods, std::span<const Vec3> axis, ContactDistance distance) {
-    return contact.arm_i * axis[contact.i] + between_centre_lines(contact, rods, distance) -
-           contact.arm_j * axis[contact.j];
+    const Vec3 arm_i = is_fixed(contact.i) ? Vec3{} : contact.arm_i * axis[contact.i];
+    return arm_i + between_centre_lines(contact, rods, distance) - contact.arm_j * axis[contact.j];
 }
 
 Mat3 sum_of_pair_stresses(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,

@@ -33,7 +33,8 @@ struct RodTorques {
 Mat3 sum_of_pair_stresses(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
                           std::span<const Vec3> axis, const RodTorques& torques, ContactDistance distance);
 
-/// r_j - r_i of a contact: arm_i n_i + distance normal - arm_j n_j. Sizes are not checked.
+/// r_j - r_i of a contact: arm_i n_i + distance normal - arm_j n_j; of a fixed body r_i is the point that it touches
+/// at, where momentum enters (theory, eq. 6.3). Sizes are not checked.
 Vec3 centre_separation(const Contact& contact, const Rods& rods, std::span<const Vec3> axis, ContactDistance distance);
 
 /// Throws InputError unless there is one force a contact, one axis a rod, and one torque a row.

@@ -13,9 +13,10 @@ std::vector<Mat3> stress_per_rod(const CollisionMoments& moments, std::span<cons
         if (found != ids.end() && *found == id) stress[static_cast<std::size_t>(found - ids.begin())] += part;
     };
     for (const CollisionMoments::Pair& pair : moments.pairs) {
-        const Mat3 half = 0.5 * pair.moment();
-        give(pair.id_i, half);
-        give(pair.id_j, half);
+        const bool alone = is_id_of_fixed(pair.id_i);
+        const Mat3 part = (alone ? 1.0 : 0.5) * pair.moment();
+        if (!alone) give(pair.id_i, part);
+        give(pair.id_j, part);
     }
     for (const CollisionMoments::Body& body : moments.bodies) give(body.id, body.geometric);
     return stress;
