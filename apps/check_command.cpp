@@ -244,7 +244,7 @@ ExitCode check(const Scene& scene, const std::string& scene_path) {
     print("L/D", aspect_ratios(population.rods));
     print("phi", fmt::format("{:.6g}", phi));
     if (const std::string warning = start_warning(scene, phi); !warning.empty()) print("WARNING", warning);
-    print("box", fmt::format("{:.6g} x {:.6g} x {:.6g} {}", box.edges.x, box.edges.y, box.edges.z,
+    print("box", fmt::format("{:.6g} x {:.6g} x {:.6g} {}", box.edges().x, box.edges().y, box.edges().z,
                              readable_unit_of(scene, dimension::length)));
     print("time step", with_unit(dt, scene, dimension::time));
     for (const std::string& warning : warnings_of_step(limits, dt)) print("WARNING", warning);

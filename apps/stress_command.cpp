@@ -49,21 +49,22 @@ StressConvention convention_of(const std::string& word) {
 
 std::optional<Box> box_of(const StressOptions& options) {
     if (options.box.empty()) return std::nullopt;
-    Box box{{options.box[0], options.box[1], options.box[2]}, {false, false, false}};
     for (const double edge : options.box)
         if (!(edge >= Range::smallest && edge <= Range::largest))
             throw InputError({.key = "--box",
                               .value = fmt::format("{}", fmt::join(options.box, " ")),
                               .problem = "has an edge that is no such length",
                               .allowed = "three lengths from 1e-30 to 1e30"});
-    if (options.periodic == "none") return box;
+    const Vec3 edges{options.box[0], options.box[1], options.box[2]};
+    std::array<bool, 3> periodic{};
+    if (options.periodic == "none") return Box(edges, periodic);
     if (options.periodic.empty() || options.periodic.find_first_not_of("xyz") != std::string::npos)
         throw InputError({.key = "--periodic",
                           .value = options.periodic,
                           .problem = "names no directions",
                           .allowed = "letters of xyz, or none"});
-    for (const char direction : options.periodic) box.periodic[static_cast<std::size_t>(direction - 'x')] = true;
-    return box;
+    for (const char direction : options.periodic) periodic[static_cast<std::size_t>(direction - 'x')] = true;
+    return Box(edges, periodic);
 }
 
 std::optional<double> volume_of(const StressOptions& options, const std::optional<Box>& box) {

@@ -74,9 +74,10 @@ Assembly copied(const Assembly& one, std::uint64_t times) {
     const std::uint64_t in_layer = times / along_x;
     const std::uint64_t along_y = largest_divisor(in_layer, std::sqrt(static_cast<double>(in_layer)));
     const std::uint64_t along_z = in_layer / along_y;
-    Assembly all{one.box, {}};
-    const std::array<std::uint64_t, 3> number = {along_x, along_y, along_z};
-    for (int k = 0; k < 3; ++k) all.box.edges[k] *= static_cast<double>(number[static_cast<std::size_t>(k)]);
+    Assembly all{Box(one.box.displacement({static_cast<std::int32_t>(along_x), static_cast<std::int32_t>(along_y),
+                                           static_cast<std::int32_t>(along_z)}),
+                     one.box.periodic()),
+                 {}};
     for (std::uint64_t x = 0; x < along_x; ++x)
         for (std::uint64_t y = 0; y < along_y; ++y)
             for (std::uint64_t z = 0; z < along_z; ++z) {

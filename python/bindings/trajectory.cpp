@@ -24,8 +24,8 @@ py::object next_frame(TrajectoryReader& reader) {
     columns["image"] = copied<std::int32_t>(frame.image, 3);
     columns["length"] = copied<float>(frame.length, 0);
     columns["diameter"] = copied<float>(frame.diameter, 0);
-    const auto& periodic = frame.box.periodic;
-    return py::make_tuple(frame.step, frame.time, array_of(frame.box.edges),
+    const auto& periodic = frame.box.periodic();
+    return py::make_tuple(frame.step, frame.time, array_of(frame.box.edges()),
                           py::make_tuple(periodic[0], periodic[1], periodic[2]), columns);
 }
 

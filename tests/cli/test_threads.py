@@ -49,15 +49,20 @@ def test_threads_may_change_when_a_run_goes_on(tmp_path):
     require_same_results(tmp_path / "changed/run", reference)
 
 
-@pytest.mark.parametrize("environment", [{}, {"OMP_WAIT_POLICY": "active"}, {"GOMP_SPINCOUNT": "7"}])
-def test_threads_wait_briefly_unless_the_environment_says_how(tmp_path, environment):
+LIMITED = {"GOMP_SPINCOUNT": "10000"}
+
+
+@pytest.mark.parametrize("environment, options, expected", [
+    ({}, [], LIMITED), ({"OMP_WAIT_POLICY": "active"}, [], {"OMP_WAIT_POLICY": "active"}), ({"GOMP_SPINCOUNT": "7"}, [], {"GOMP_SPINCOUNT": "7"}),
+    ({}, ["--spin-waiting"], {}), ({"OMPI_COMM_WORLD_RANK": "0"}, [], {})])
+def test_threads_wait_briefly_unless_told_otherwise(tmp_path, environment, options, expected):
+    """The environment, an option, or a launcher of MPI, whose processes begin once only."""
     write_scene(tmp_path, with_steps(changed(SCENES["spheres"], rods={"count": 100}), 10**6))
-    process = start(tmp_path, env={**environment_without("OMP_WAIT_POLICY", "GOMP_SPINCOUNT"), **environment})
+    process = start(tmp_path, *options, env={**environment_without("OMP_WAIT_POLICY", "GOMP_SPINCOUNT"), **environment})
     wait_until(lambda: rows_of(tmp_path / "run/series.csv") > 0, process)
     seen = dict(entry.split("=", 1) for entry in Path(f"/proc/{process.pid}/environ").read_text().split("\0") if entry)
     assert Path(f"/proc/{process.pid}/comm").read_text() == Path(JOSTLE).name + "\n"
     kill(process)
-    expected = environment or {"GOMP_SPINCOUNT": "10000"}
     assert {name: seen[name] for name in ("OMP_WAIT_POLICY", "GOMP_SPINCOUNT") if name in seen} == expected
 
 

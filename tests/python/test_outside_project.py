@@ -27,6 +27,7 @@ def build(tmp_path_factory):
     folder = tmp_path_factory.mktemp("outside")
     (folder / "guide.cpp").write_text(block_of_the_guide("int main"))
     (folder / "constant_force.hpp").write_text(block_of_the_guide("class ConstantForce"))
+    (folder / "free_draining.hpp").write_text(block_of_the_guide("free_draining()"))
     succeed("cmake", "--install", os.environ["JOSTLE_BUILD"], "--prefix", folder / "prefix")
     succeed("cmake", "-S", PROJECT, "-B", folder / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
             f"-DCMAKE_PREFIX_PATH={folder / 'prefix'}", f"-DGUIDE_PROGRAM={folder / 'guide.cpp'}")
@@ -85,10 +86,11 @@ def test_outside_project(build, tmp_path):
     assert np.array_equal(printed[9:], simulation.step().collision_virial.ravel())
 
 
-def test_motion_of_the_guide(build):
-    """Two spheres sediment as Stokes says."""
-    printed = [float(word) for word in succeed(build / "sediment").split()]
-    assert np.allclose(printed, [3 / (3 * np.pi)] * 2, rtol=1e-12)
+def test_motion_and_mobility_of_the_guide(build):
+    """A sphere sediments as Stokes says; where the fluid flows through rods freely, a rod twice as long has twice the friction."""
+    sphere, rod, free_sphere, free_rod = [float(word) for word in succeed(build / "sediment").split()]
+    assert np.allclose([sphere, free_sphere, free_rod], np.array([1, 1, 0.5]) / np.pi, rtol=1e-12)
+    assert 0.5 / np.pi < rod < 1 / np.pi
 
 
 def test_program_of_the_guide(build, tmp_path):

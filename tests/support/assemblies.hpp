@@ -20,7 +20,8 @@ inline Rods thrown(std::size_t count, const Box& box, double length, double diam
     std::uniform_real_distribution<double> uniform;
     Rods rods;
     for (std::size_t k = 0; k < count; ++k) {
-        const Vec3 centre{uniform(engine) * box.edges.x, uniform(engine) * box.edges.y, uniform(engine) * box.edges.z};
+        const Vec3 centre{uniform(engine) * box.edges().x, uniform(engine) * box.edges().y,
+                          uniform(engine) * box.edges().z};
         const double scale = 0.5 + 0.5 * uniform(engine);
         rods.push_back(k, centre, random_direction(engine), k % 5 == 0 ? 0.0 : scale * length,
                        diameter * (0.7 + 0.3 * uniform(engine)));
@@ -43,7 +44,8 @@ inline std::vector<BrutePair> brute_force_pairs(const Rods& rods, const Box& box
     Image most{0, 0, 0};
     for (int k = 0; k < 3; ++k) {
         const auto direction = static_cast<std::size_t>(k);
-        if (box.periodic[direction]) most[direction] = 1 + static_cast<int>(std::ceil((reach + range) / box.edges[k]));
+        if (box.periodic()[direction])
+            most[direction] = 1 + static_cast<int>(std::ceil((reach + range) / box.edges()[k]));
     }
     for (std::size_t i = 0; i < rods.size(); ++i)
         for (std::size_t j = i; j < rods.size(); ++j)

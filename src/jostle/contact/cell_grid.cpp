@@ -34,8 +34,8 @@ std::pair<double, double> middle_of(const Rods& rods, int direction, double part
 
 }  // namespace
 
-CellGrid::CellGrid(const Rods& rods, const Box& box, double range) : periodic_(box.periodic) {
-    Vec3 extent = box.edges;
+CellGrid::CellGrid(const Rods& rods, const Box& box, double range) : periodic_(box.periodic()) {
+    Vec3 extent = box.edges();
     const auto span_open_directions = [&](double left_out) {
         for (int k = 0; k < 3; ++k) {
             if (periodic_[static_cast<std::size_t>(k)] || rods.size() == 0) continue;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "jostle/error/input_error.hpp"
+#include "jostle/error/refuse.hpp"
 #include "jostle/math/random.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
@@ -136,13 +136,10 @@ LineageEvent Growth::split(Rods& rods, std::size_t row, const Box& box, std::uin
     const std::uint64_t mother = rods.id[row], divisions = rods.cycle[row].divisions;
     const int new_bit = rods.founder_bits + static_cast<int>(divisions);
     if (new_bit >= id_bits)
-        throw InputError(
-            {.key = "growth",
-             .value = "cell " + std::to_string(mother),
-             .problem = "has had " + std::to_string(divisions) + " divisions in its line",
-             .allowed = "at most " + std::to_string(id_bits - rods.founder_bits) + ": ids cannot tell more apart",
-             .suggestion = "Start anew from its rods",
-             .place = {}});
+        refuse("growth", "cell " + std::to_string(mother),
+               "has had " + std::to_string(divisions) + " divisions in its line",
+               "at most " + std::to_string(id_bits - rods.founder_bits) + ": ids cannot tell more apart",
+               "Start anew from its rods");
     const std::uint64_t daughter = mother | std::uint64_t{1} << new_bit;
     const double diameter = rods.diameter[row], length = 0.5 * (rods.length[row] - diameter);
     const Vec3 axis = rods.axis[row], step_along = 0.25 * (rods.length[row] + diameter) * axis;

@@ -110,7 +110,7 @@ double without_rounding(double value) {
 }
 
 Json box_entry(const Scene& scene, const Box& box) {
-    return {{"edges", {box.edges.x, box.edges.y, box.edges.z}},
+    return {{"edges", {box.edges().x, box.edges().y, box.edges().z}},
             {"periodic", scene.box.periodic},
             {"unit", unit_of(scene, dimension::length)}};
 }

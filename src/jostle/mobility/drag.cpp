@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "jostle/error/require_value.hpp"
+#include "jostle/error/refuse.hpp"
 
 namespace jostle {
 
@@ -61,13 +61,9 @@ RodMobility slender_body_drag(double length, double diameter, double viscosity) 
     require_physical(length, diameter, viscosity);
     const double b = length > 0.0 ? 2.0 * std::log(2.0 * length / diameter) - 1.0 : -1.0;
     if (b <= 0.0)
-        throw InputError(
-            {.key = "mobility.model",
-             .value = "slender_body",
-             .problem = fmt::format("gives a rod of L/D = {:.4g} negative drag along its axis", length / diameter),
-             .allowed = "L/D > sqrt(e)/2 = 0.824",
-             .suggestion = "Use capsule, which holds for every L/D >= 0",
-             .place = {}});
+        refuse("mobility.model", "slender_body",
+               fmt::format("gives a rod of L/D = {:.4g} negative drag along its axis", length / diameter),
+               "L/D > sqrt(e)/2 = 0.824", "Use capsule, which holds for every L/D >= 0");
     const double unit = 8.0 * pi * viscosity * length;
     return {2.0 * b / unit, (b + 2.0) / unit, 12.0 * (b + 2.0) / (unit * length * length)};
 }

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "jostle/error/require_value.hpp"
+#include "jostle/error/refuse.hpp"
 #include "jostle/math/random.hpp"
 
 namespace jostle {

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "jostle/error/require_value.hpp"
+#include "jostle/error/refuse.hpp"
 #include "jostle/math/random.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 

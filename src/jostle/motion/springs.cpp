@@ -4,7 +4,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "jostle/error/require_value.hpp"
+#include "jostle/error/refuse.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {

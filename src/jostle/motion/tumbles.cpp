@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "jostle/error/require_value.hpp"
+#include "jostle/error/refuse.hpp"
 #include "jostle/math/random.hpp"
 
 namespace jostle {

@@ -12,7 +12,7 @@
 #include <system_error>
 #include <thread>
 
-#include "jostle/error/input_error.hpp"
+#include "jostle/error/refuse.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle::parallel {
@@ -58,20 +58,10 @@ int as_many_as_start(int wanted) {
     return found;
 }
 
-[[noreturn]] void refuse(const char* key, std::string value, const char* problem, const std::string& allowed,
-                         const char* suggestion) {
-    throw InputError({.key = key,
-                      .value = std::move(value),
-                      .problem = problem,
-                      .allowed = allowed,
-                      .suggestion = suggestion,
-                      .place = {}});
-}
-
 /// The one range of all numbers of threads, whoever asks for them.
 int checked(long long count, const char* key, const std::string& value) {
     if (count < 1 || count > max_threads)
-        refuse(key, value, "is no number of threads", "1 to " + std::to_string(max_threads), "");
+        refuse(key, value, "is no number of threads", "1 to " + std::to_string(max_threads));
     const int found = as_many_as_start(static_cast<int>(count));
     if (found < count)
         refuse(key, value, "the system does not start so many threads", "1 to " + std::to_string(found),

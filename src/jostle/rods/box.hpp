@@ -1,27 +1,43 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "jostle/rods/rods.hpp"
 
 namespace jostle {
 
-/// A rectangular box with one corner at the origin, periodic or open along each direction.
+/// A rectangular box with one corner at the origin, periodic or open along each direction. A box of another size is
+/// another box.
 ///
 /// Open means without walls: rods may leave; the edge then only defines the volume that phi and n refer to.
-struct Box {
-    Vec3 edges{1, 1, 1};
-    std::array<bool, 3> periodic{true, true, true};
+class Box {
+public:
+    constexpr Box() = default;
+    constexpr Box(const Vec3& edges, const std::array<bool, 3>& periodic = {true, true, true})
+        : edges_(edges), periodic_(periodic) {}
 
-    double volume() const { return edges.x * edges.y * edges.z; }
+    const Vec3& edges() const { return edges_; }
+    const std::array<bool, 3>& periodic() const { return periodic_; }
+    bool is_periodic() const { return periodic_[0] && periodic_[1] && periodic_[2]; }
 
-    bool is_periodic() const { return periodic[0] && periodic[1] && periodic[2]; }
+    double volume() const { return edges_.x * edges_.y * edges_.z; }
+    double longest_edge() const { return std::max({edges_.x, edges_.y, edges_.z}); }
+
+    /// The point that lies at these parts of the edges, 0 to 1 within the box.
+    Vec3 point_at(const Vec3& parts) const { return {parts.x * edges_.x, parts.y * edges_.y, parts.z * edges_.z}; }
 
     /// The vector by which a copy is displaced: image * edges, element by element.
-    Vec3 displacement(const Image& image) const { return {image[0] * edges.x, image[1] * edges.y, image[2] * edges.z}; }
+    Vec3 displacement(const Image& image) const {
+        return {image[0] * edges_.x, image[1] * edges_.y, image[2] * edges_.z};
+    }
 
     /// Moves `centre` into [0, edge) along periodic directions, and counts the edges crossed in `image`.
     void wrap(Vec3& centre, Image& image) const;
+
+private:
+    Vec3 edges_{1, 1, 1};
+    std::array<bool, 3> periodic_{true, true, true};
 };
 
 }  // namespace jostle

@@ -29,7 +29,7 @@ struct CellPlace {
 
 std::vector<std::uint32_t> space_filling_order(const Rods& rods, const Box& box) {
     // Cells are cubes, the same in all directions; the curve repeats itself where an open box has been left.
-    const double cell = std::max({box.edges.x, box.edges.y, box.edges.z}) / static_cast<double>(cells_per_edge);
+    const double cell = box.longest_edge() / static_cast<double>(cells_per_edge);
     const auto coordinate = [&](double x) {
         return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x / cell))) % cells_per_edge;
     };

@@ -72,9 +72,9 @@ void hold_nearest_images(std::vector<Spring>& springs, const Rods& rods, const B
     for (std::size_t l = 0; l < springs.size(); ++l) {
         const Vec3 separation = pulls[l].separation(springs[l], rods.centre, rods.axis);
         for (int k = 0; k < 3; ++k)
-            if (box.periodic[static_cast<std::size_t>(k)])
+            if (box.periodic()[static_cast<std::size_t>(k)])
                 springs[l].image[static_cast<std::size_t>(k)] =
-                    -static_cast<std::int32_t>(std::lround(separation[k] / box.edges[k]));
+                    -static_cast<std::int32_t>(std::lround(separation[k] / box.edges()[k]));
     }
 }
 

@@ -127,9 +127,9 @@ FieldWriter fields_of(const Checkpoint& checkpoint) {
     writer.put_text("scene", checkpoint.scene);
     writer.put("step", checkpoint.state.clock.step);
     writer.put("time", checkpoint.state.clock.time);
-    writer.put("box.edges", checkpoint.state.box.edges);
+    writer.put("box.edges", checkpoint.state.box.edges());
     std::array<std::uint8_t, 3> periodic{};
-    std::copy(checkpoint.state.box.periodic.begin(), checkpoint.state.box.periodic.end(), periodic.begin());
+    std::copy(checkpoint.state.box.periodic().begin(), checkpoint.state.box.periodic().end(), periodic.begin());
     writer.put("box.periodic", periodic);
     put_rods(writer, checkpoint.state.rods);
     put_springs(writer, checkpoint.state.springs);
@@ -146,9 +146,9 @@ Checkpoint from_fields(std::string_view payload) {
     checkpoint.scene = reader.take_text("scene");
     checkpoint.state.clock.step = reader.take<std::uint64_t>("step");
     checkpoint.state.clock.time = reader.take<double>("time");
-    checkpoint.state.box.edges = reader.take<Vec3>("box.edges");
+    const Vec3 edges = reader.take<Vec3>("box.edges");
     const auto periodic = reader.take<std::array<std::uint8_t, 3>>("box.periodic");
-    for (std::size_t k = 0; k < 3; ++k) checkpoint.state.box.periodic[k] = periodic[k] != 0;
+    checkpoint.state.box = Box(edges, {periodic[0] != 0, periodic[1] != 0, periodic[2] != 0});
     checkpoint.state.rods = take_rods(reader);
     checkpoint.state.springs = take_springs(reader);
     checkpoint.state.previous_forces = take_forces(reader);

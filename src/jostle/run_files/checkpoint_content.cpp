@@ -45,16 +45,16 @@ bool is_zero_or_positive(double value) {
 
 void check_box(const Box& box, ContentCheck& check) {
     for (int k = 0; k < 3; ++k)
-        check.require(within(box.edges[k], Range::smallest, Range::largest), "edge of the box", box.edges[k]);
+        check.require(within(box.edges()[k], Range::smallest, Range::largest), "edge of the box", box.edges()[k]);
 }
 
 void check_rods(const Rods& rods, const Box& box, ContentCheck& check) {
-    const double farthest = max_edges_away * std::max({box.edges.x, box.edges.y, box.edges.z});
+    const double farthest = max_edges_away * box.longest_edge();
     for (std::size_t i = 0; i < rods.size(); ++i) {
         for (int k = 0; k < 3; ++k) {
-            const bool wrapped = box.periodic[static_cast<std::size_t>(k)];
-            const double lower = wrapped ? -rounding * box.edges[k] : -farthest;
-            const double upper = wrapped ? (1.0 + rounding) * box.edges[k] : farthest;
+            const bool wrapped = box.periodic()[static_cast<std::size_t>(k)];
+            const double lower = wrapped ? -rounding * box.edges()[k] : -farthest;
+            const double upper = wrapped ? (1.0 + rounding) * box.edges()[k] : farthest;
             check.require_of_rod(within(rods.centre[i][k], lower, upper), "centre", i, rods.centre[i][k]);
         }
         const double squared = squared_norm(rods.axis[i]);

@@ -34,7 +34,7 @@ JournalShape shape_of(const std::string& journal_path) {
     shape.has_stress = reader.content() == TrajectoryJournal::Content::rods_and_stress;
     for (TrajectoryFrame frame; reader.next(frame); ++shape.frames) {
         if (shape.frames == 0) shape.box = frame.box;
-        shape.box_varies = shape.box_varies || !(frame.box.edges == shape.box.edges);
+        shape.box_varies = shape.box_varies || !(frame.box.edges() == shape.box.edges());
         shape.largest_count = std::max<hsize_t>(shape.largest_count, frame.size());
     }
     return shape;
@@ -74,10 +74,11 @@ Hdf5Id write_box(hid_t rods, const JournalShape& shape, const H5mdAttributes& at
     put_attribute(box, "dimension", H5T_NATIVE_INT, {}, &dimension);
     constexpr std::size_t width = 8;  // of "periodic"
     std::string boundary;
-    for (const bool periodic : shape.box.periodic)
+    for (const bool periodic : shape.box.periodic())
         boundary += periodic ? "periodic" : std::string("none\0\0\0\0", width);
     put_attribute(box, "boundary", text_type(width), {3}, boundary.data());
-    if (!shape.box_varies) put_compact(box, "edges", H5T_NATIVE_DOUBLE, {3}, &shape.box.edges, attributes.length_unit);
+    if (!shape.box_varies)
+        put_compact(box, "edges", H5T_NATIVE_DOUBLE, {3}, &shape.box.edges(), attributes.length_unit);
     return box;
 }
 
@@ -126,7 +127,7 @@ void write_particles(hid_t file, const std::string& journal_path, const JournalS
         id.write(k, count, frame.id.data());  // ids count from 0 and stay far below 2^63
         if (collision) collision->write(k, count, frame.stress.data());
         if (orientation) orientation->write(k, count, orientation_stress_of_rods(frame, attributes.kT).data());
-        if (edges) edges->write(k, 3, &frame.box.edges);
+        if (edges) edges->write(k, 3, &frame.box.edges());
     }
 }
 

@@ -37,16 +37,16 @@ void put_single(ByteWriter& writer, const std::vector<double>& values) {
 }
 
 std::uint64_t periodic_bits(const Box& box) {
-    return (box.periodic[0] ? 1u : 0u) | (box.periodic[1] ? 2u : 0u) | (box.periodic[2] ? 4u : 0u);
+    return (box.periodic()[0] ? 1u : 0u) | (box.periodic()[1] ? 2u : 0u) | (box.periodic()[2] ? 4u : 0u);
 }
 
 /// Fills the frame's header and returns N. The frame mark has been read before.
 std::uint64_t take_header(ByteReader& reader, TrajectoryFrame& frame) {
     frame.step = reader.take<std::uint64_t>();
     frame.time = reader.take<double>();
-    frame.box.edges = reader.take<Vec3>();
+    const Vec3 edges = reader.take<Vec3>();
     const auto periodic = reader.take<std::uint64_t>();
-    for (std::size_t k = 0; k < 3; ++k) frame.box.periodic[k] = (periodic >> k & 1u) != 0;
+    frame.box = Box(edges, {(periodic & 1u) != 0, (periodic & 2u) != 0, (periodic & 4u) != 0});
     return reader.take<std::uint64_t>();
 }
 
@@ -130,7 +130,7 @@ void TrajectoryJournal::append(std::uint64_t step, double time, const Box& box, 
     frame_.put(frame_mark);
     frame_.put(step);
     frame_.put(time);
-    frame_.put(box.edges);
+    frame_.put(box.edges());
     frame_.put(periodic_bits(box));
     frame_.put(static_cast<std::uint64_t>(rods.size()));
     frame_.put(checksum(frame_.bytes()));

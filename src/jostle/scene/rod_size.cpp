@@ -11,7 +11,7 @@
 #include <numeric>
 #include <span>
 
-#include "jostle/error/input_error.hpp"
+#include "jostle/error/refuse.hpp"
 #include "jostle/math/random.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
@@ -37,14 +37,11 @@ double bytes_of_memory() {
 void require_room(std::uint64_t count) {
     const double needed = bytes_per_rod * static_cast<double>(count), there = bytes_of_memory();
     if (needed <= there) return;
-    throw InputError({.key = "rods.count",
-                      .value = fmt::format("{}", count),
-                      .problem = fmt::format("a run of so many rods needs {:.3g} GB of memory at least, "
-                                             "and this machine gives {:.3g} GB",
-                                             needed / 1e9, there / 1e9),
-                      .allowed = fmt::format("here at most {:.0f}", std::floor(there / bytes_per_rod)),
-                      .suggestion = {},
-                      .place = {}});
+    refuse("rods.count", fmt::format("{}", count),
+           fmt::format("a run of so many rods needs {:.3g} GB of memory at least, "
+                       "and this machine gives {:.3g} GB",
+                       needed / 1e9, there / 1e9),
+           fmt::format("here at most {:.0f}", std::floor(there / bytes_per_rod)));
 }
 
 bool too_far(const Normals& normal) {

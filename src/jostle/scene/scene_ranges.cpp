@@ -5,8 +5,9 @@
 #include <optional>
 #include <string_view>
 
+#include "jostle/error/refuse.hpp"
 #include "jostle/scene/mistakes.hpp"
-#include "jostle/scene/refusal.hpp"
+#include "jostle/scene/number_text.hpp"
 #include "jostle/scene/scene_keys.hpp"
 #include "jostle/scene/unused_keys.hpp"
 

@@ -9,7 +9,8 @@
 
 #include "jostle/contact/own_image.hpp"
 #include "jostle/contact/wca_forces.hpp"
-#include "jostle/scene/refusal.hpp"
+#include "jostle/error/refuse.hpp"
+#include "jostle/scene/number_text.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_motion.hpp"
 
@@ -97,7 +98,7 @@ std::vector<StepLimit> image_limits(const Scene& scene, const Box& box, const Ro
                                     const MobilityOperator& mobility) {
     if (scene.contact.model != ContactModel::hard || thermal_energy(scene) == 0.0) return {};
     StepLimit limit = {.key = "box.edges",
-                       .value = text(box.edges),
+                       .value = text(box.edges()),
                        .harm = "leaves rods no room to turn between their own images",
                        .what = "the turn of a rod, over that which its images leave room for, is",
                        .unit = "",
@@ -108,8 +109,8 @@ std::vector<StepLimit> image_limits(const Scene& scene, const Box& box, const Ro
                        .largest = largest_turn};
     for (std::size_t i = 0; i < rods.size(); ++i)
         for (std::size_t k = 0; k < 3; ++k) {
-            const double edge = box.edges[static_cast<int>(k)];
-            if (rods.length[i] == 0.0 || !box.periodic[k] || edge >= rods.length[i] + rods.diameter[i]) continue;
+            const double edge = box.edges()[static_cast<int>(k)];
+            if (rods.length[i] == 0.0 || !box.periodic()[k] || edge >= rods.length[i] + rods.diameter[i]) continue;
             const double room = inclination_between_images(edge, rods.length[i], rods.diameter[i]);
             limit.rate =
                 std::max(limit.rate, 2.0 * thermal_energy(scene) * mobility.of_rod(i).rotational / (room * room));

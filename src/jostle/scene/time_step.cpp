@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "jostle/scene/refusal.hpp"
+#include "jostle/error/refuse.hpp"
+#include "jostle/scene/number_text.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_keys.hpp"
 #include "jostle/scene/scene_motion.hpp"

@@ -2,9 +2,9 @@
 
 #include <fmt/core.h>
 
+#include "jostle/error/refuse.hpp"
 #include "jostle/scene/key_values.hpp"
 #include "jostle/scene/mistakes.hpp"
-#include "jostle/scene/refusal.hpp"
 #include "jostle/scene/scene_keys.hpp"
 #include "jostle/scene/scene_motion.hpp"
 

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jostle/error/refuse.hpp"
 #include "jostle/motion/tumbles.hpp"
 #include "jostle/rods/rods.hpp"
 #include "jostle/scene/mistakes.hpp"
-#include "jostle/scene/refusal.hpp"
+#include "jostle/scene/number_text.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_box.hpp"
 #include "jostle/scene/scene_mobility.hpp"

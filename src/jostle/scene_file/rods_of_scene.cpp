@@ -74,7 +74,7 @@ double longest_of(const Rods& rods) {
 
 /// Farther away, doubles would no longer tell where in the box a rod is.
 void require_near(const Rods& rods, const Box& box, const std::string& file) {
-    const double farthest = max_edges_away * std::max({box.edges.x, box.edges.y, box.edges.z});
+    const double farthest = max_edges_away * box.longest_edge();
     for (std::size_t i = 0; i < rods.size(); ++i)
         for (int k = 0; k < 3; ++k)
             if (std::fabs(rods.centre[i][k]) > farthest)

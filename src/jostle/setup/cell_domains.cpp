@@ -6,7 +6,7 @@ CellDomains::CellDomains(const CellGrid& grid, const Box& box, const std::array<
     : grid_(grid), box_(box) {
     for (std::size_t k = 0; k < 3; ++k) {
         const int cells = grid.cells_along(k), reach = grid.reach_along(k);
-        const int count = box.periodic[k] && cells >= 2 * reach ? cells / reach / 2 * 2 : 1;
+        const int count = box.periodic()[k] && cells >= 2 * reach ? cells / reach / 2 * 2 : 1;
         const int begin = count > 1 ? static_cast<int>(shift[k] % static_cast<std::uint64_t>(cells)) : 0;
         Slabs& slabs = slabs_[k];
         for (std::int64_t slab = 0; slab <= count; ++slab)
@@ -38,7 +38,7 @@ Vec3 CellDomains::point_in(std::size_t domain, const std::array<double, 3>& part
         const auto first = static_cast<double>(slabs.first[slab]), last = static_cast<double>(slabs.first[slab + 1]);
         const auto cells = static_cast<double>(slabs.of_cell.size());
         const double cell = first + parts[direction] * (last - first);
-        point[k] = (cell < cells ? cell : cell - cells) / cells * box_.edges[k];
+        point[k] = (cell < cells ? cell : cell - cells) / cells * box_.edges()[k];
     }
     return point;
 }

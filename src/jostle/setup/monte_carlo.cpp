@@ -129,8 +129,8 @@ MonteCarlo::Trial MonteCarlo::shift(std::uint32_t row, std::uint32_t draw) const
 /// Whether a rod would leave its domain, or an open box, or get farther away from that.
 bool MonteCarlo::leads_out(std::uint32_t row, const Vec3& centre, const Site& site) const {
     for (int k = 0; k < 3; ++k) {
-        if (box_.periodic[static_cast<std::size_t>(k)]) continue;
-        const auto outside = [&](double x) { return std::max({0.0, -x, x - box_.edges[k]}); };
+        if (box_.periodic()[static_cast<std::size_t>(k)]) continue;
+        const auto outside = [&](double x) { return std::max({0.0, -x, x - box_.edges()[k]}); };
         if (outside(centre[k]) > outside(rods_.centre[row][k])) return true;
     }
     return site.domains.domain_of(centre) != site.domain;
@@ -183,7 +183,7 @@ std::size_t MonteCarlo::own_images(std::uint32_t row, const Vec3& axis) const {
     std::array<int, 3> far{};
     for (int k = 0; k < 3; ++k) {
         const auto direction = static_cast<std::size_t>(k);
-        far[direction] = box_.periodic[direction] ? static_cast<int>(std::ceil(size / box_.edges[k])) - 1 : 0;
+        far[direction] = box_.periodic()[direction] ? static_cast<int>(std::ceil(size / box_.edges()[k])) - 1 : 0;
     }
     if (far == std::array<int, 3>{0, 0, 0}) return 0;
     std::size_t overlaps = 0;

@@ -17,7 +17,8 @@ public:
         : grid_(grid),
           box_(box),
           // Places are kept in single precision.
-          squared_range_(static_cast<float>(std::pow(range + 1e-6 * (box.edges.x + box.edges.y + box.edges.z), 2.0))),
+          squared_range_(
+              static_cast<float>(std::pow(range + 1e-6 * (box.edges().x + box.edges().y + box.edges().z), 2.0))),
           first_(grid.size()) {}
 
     void fill(const Rods& rods) {

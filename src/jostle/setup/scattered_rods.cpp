@@ -68,7 +68,7 @@ Rods scattered_rods(const Scene& scene, const Box& box, const std::optional<Vec3
             const std::uint32_t i = rows[k];
             const RandomKey key{scene.seed, 0, Stream::start, rods.id[i]};
             const auto u = uniform4(key, 2 * draw);
-            rods.centre[i] = {u[0] * box.edges.x, u[1] * box.edges.y, u[2] * box.edges.z};
+            rods.centre[i] = box.point_at({u[0], u[1], u[2]});
             if (common_axis) return;
             const auto v = uniform4(key, 2 * draw + 1);
             rods.axis[i] = random_direction(v[0], v[1]);

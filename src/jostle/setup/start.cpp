@@ -87,7 +87,7 @@ Lattice lattice_of(const Scene& scene, const Box& box) {
                           .suggestion = "For another direction use start = \"aligned\""});
     Lattice lattice{axis, {along, (along + 1) % 3, (along + 2) % 3}, {}, {}};
     const double D = scene.rods.diameter;
-    for (std::size_t k = 0; k < 3; ++k) lattice.edges[k] = box.edges[lattice.direction[k]];
+    for (std::size_t k = 0; k < 3; ++k) lattice.edges[k] = box.edges()[lattice.direction[k]];
     const Grid grid = roomiest_grid(scene.rods.count, lattice.edges, {scene.rods.length + D, D, D});
     if (grid.tightness > 1.0)
         throw InputError(

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "jostle/error/input_error.hpp"
+#include "jostle/error/refuse.hpp"
 #include "jostle/math/symmetric_eigen.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
@@ -21,12 +21,7 @@ Vec3 with_largest_component_positive(const Vec3& v) {
 
 NematicOrder nematic_order(std::span<const Vec3> axes) {
     if (axes.empty()) {
-        throw InputError({.key = "axes",
-                          .value = "none",
-                          .problem = "no rods, no order",
-                          .allowed = "at least one axis",
-                          .suggestion = "",
-                          .place = {}});
+        refuse("axes", "none", "no rods, no order", "at least one axis");
     }
     const auto sum = parallel_sum<Mat3>(axes.size(), [&](std::size_t i) { return outer(axes[i], axes[i]); });
     const Mat3 tensor = (1.5 / static_cast<double>(axes.size())) * sum - 0.5 * identity();

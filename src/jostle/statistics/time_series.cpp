@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "jostle/error/input_error.hpp"
+#include "jostle/error/refuse.hpp"
 #include "jostle/statistics/columns.hpp"
 #include "jostle/statistics/student_t.hpp"
 
@@ -159,12 +159,7 @@ double correlation_time(std::span<const std::vector<double>> columns) {
 
 std::vector<double> block_means(std::span<const double> series, std::size_t block_length) {
     if (block_length == 0) {
-        throw InputError({.key = "block_length",
-                          .value = "0",
-                          .problem = "a block must have rows",
-                          .allowed = ">= 1",
-                          .suggestion = "",
-                          .place = {}});
+        refuse("block_length", "0", "a block must have rows", ">= 1");
     }
     const std::size_t blocks = series.size() / block_length;
     const std::size_t left_out = series.size() - blocks * block_length;

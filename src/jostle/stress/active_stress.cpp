@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "jostle/error/input_error.hpp"
+#include "jostle/error/refuse.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
@@ -29,12 +30,8 @@ Vec3 unwrapped(const Rods& rods, const Box& box, std::size_t i) {
 
 ActiveStress::ActiveStress(std::uint64_t lag) : lag_(lag) {
     if (lag == 0)
-        throw InputError({.key = "output.active_stress_lag",
-                          .value = fmt::format("{}", lag),
-                          .problem = "is shorter than one row of the series",
-                          .allowed = "at least 1 row",
-                          .suggestion = {},
-                          .place = {}});
+        refuse("output.active_stress_lag", fmt::format("{}", lag), "is shorter than one row of the series",
+               "at least 1 row");
 }
 
 void ActiveStress::begin(const Rods& rods, const Box& box) {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "jostle/error/refuse.hpp"
 #include "jostle/math/symmetric_eigen.hpp"
-#include "jostle/stress/refuse.hpp"
 
 namespace jostle {
 

@@ -1,6 +1,6 @@
 #include "jostle/stress/collision_stress.hpp"
 
-#include "jostle/error/input_error.hpp"
+#include "jostle/error/refuse.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/stress/spherocylinder_moments.hpp"
 
@@ -10,12 +10,8 @@ namespace {
 
 void require_rows(const char* key, std::size_t rows, std::size_t needed, const char* per) {
     if (rows == needed) return;
-    throw InputError({.key = key,
-                      .value = std::to_string(rows) + " rows",
-                      .problem = std::string("must have one row a ") + per,
-                      .allowed = std::to_string(needed) + " rows",
-                      .suggestion = "",
-                      .place = {}});
+    refuse(key, std::to_string(rows) + " rows", std::string("must have one row a ") + per,
+           std::to_string(needed) + " rows");
 }
 
 /// From the contact's point on the centre line of rod i, or on the fixed body, to that on the centre line of rod j.

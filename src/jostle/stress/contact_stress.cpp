@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "jostle/stress/refuse.hpp"
+#include "jostle/error/refuse.hpp"
 
 namespace jostle {
 

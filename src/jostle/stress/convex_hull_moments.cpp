@@ -15,7 +15,7 @@ namespace jostle {
 
 namespace {
 
-[[noreturn]] void refuse(std::string problem) {
+[[noreturn]] void refuse_points(std::string problem) {
     throw InputError({.key = "points",
                       .problem = std::move(problem),
                       .allowed = "at least 4 points that are not in a plane",
@@ -73,7 +73,7 @@ std::vector<Corners> hull_of(std::span<const Vec3> points) {
     std::vector<double> coordinates;
     for (const Vec3& point : points) coordinates.insert(coordinates.end(), {point.x, point.y, point.z});
     const Hull hull(coordinates);
-    if (hull.status() != 0) refuse(fmt::format("have no convex hull (Qhull error {})", hull.status()));
+    if (hull.status() != 0) refuse_points(fmt::format("have no convex hull (Qhull error {})", hull.status()));
     return hull.faces(points);
 }
 
@@ -81,7 +81,7 @@ std::vector<Corners> hull_of(std::span<const Vec3> points) {
 
 BodyMoments convex_hull_moments(std::span<const Vec3> points) {
     const Vec3 middle = middle_of("points", points);
-    if (points.size() < 4) refuse(fmt::format("are {}", points.size()));
+    if (points.size() < 4) refuse_points(fmt::format("are {}", points.size()));
     Tetrahedra sum(middle);
     double area = 0.0;
     // The middle is inside, so a face that faces it is turned the wrong way.
@@ -90,7 +90,7 @@ BodyMoments convex_hull_moments(std::span<const Vec3> points) {
         dot(normal, a - middle) > 0.0 ? sum.add(a, b, c) : sum.add(a, c, b);
         area += 0.5 * norm(normal);
     }
-    if (!(sum.volume() > least_volume(area))) refuse("are in a plane");
+    if (!(sum.volume() > least_volume(area))) refuse_points("are in a plane");
     return sum.moments();
 }
 

@@ -13,7 +13,7 @@ namespace jostle {
 
 namespace {
 
-[[noreturn]] void refuse(std::string key, std::string problem, std::string suggestion = "") {
+[[noreturn]] void refuse_mesh(std::string key, std::string problem, std::string suggestion = "") {
     throw InputError({.key = std::move(key), .problem = std::move(problem), .suggestion = std::move(suggestion)});
 }
 
@@ -21,8 +21,8 @@ void require_corners(std::span<const Triangle> triangles, std::size_t vertices) 
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         const auto& [a, b, c] = triangles[k];
         const std::string key = fmt::format("triangles[{}] = {} {} {}", k, a, b, c);
-        if (std::max({a, b, c}) >= vertices) refuse(key, fmt::format("there are {} vertices, from 0", vertices));
-        if (a == b || b == c || c == a) refuse(key, "names a vertex twice");
+        if (std::max({a, b, c}) >= vertices) refuse_mesh(key, fmt::format("there are {} vertices, from 0", vertices));
+        if (a == b || b == c || c == a) refuse_mesh(key, "names a vertex twice");
     }
 }
 
@@ -60,12 +60,13 @@ void require_closed(std::span<const Triangle> triangles) {
     }
     const std::string where = fmt::format("the first is from vertex {} to {}", first.from, first.to);
     if (open > 0)
-        refuse("triangles", fmt::format("the mesh is open: {} edges belong to one triangle only, {}", open, where),
-               "Close its holes, and merge vertices that stand at the same place");
+        refuse_mesh("triangles", fmt::format("the mesh is open: {} edges belong to one triangle only, {}", open, where),
+                    "Close its holes, and merge vertices that stand at the same place");
     if (unlike > 0)
-        refuse("triangles",
-               fmt::format("the triangles on the two sides of {} edges are turned in opposite ways, {}", unlike, where),
-               "Order the corners of every triangle anticlockwise as seen from outside");
+        refuse_mesh(
+            "triangles",
+            fmt::format("the triangles on the two sides of {} edges are turned in opposite ways, {}", unlike, where),
+            "Order the corners of every triangle anticlockwise as seen from outside");
 }
 
 double area_of(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
@@ -86,10 +87,11 @@ BodyMoments mesh_moments(std::span<const Vec3> vertices, std::span<const Triangl
     const double area = area_of(vertices, triangles);
     const double smallest = least_volume(area);
     if (sum.volume() < -smallest)
-        refuse("triangles", fmt::format("the mesh is inside out: its volume is {:.6g}", sum.volume()),
-               "Exchange two corners of every triangle, so that they are anticlockwise as seen from outside");
+        refuse_mesh("triangles", fmt::format("the mesh is inside out: its volume is {:.6g}", sum.volume()),
+                    "Exchange two corners of every triangle, so that they are anticlockwise as seen from outside");
     if (!(sum.volume() > smallest))
-        refuse("triangles", fmt::format("the mesh encloses nothing: volume {:.3g}, area {:.6g}", sum.volume(), area));
+        refuse_mesh("triangles",
+                    fmt::format("the mesh encloses nothing: volume {:.3g}, area {:.6g}", sum.volume(), area));
     return sum.moments();
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "jostle/error/input_error.hpp"
+#include "jostle/error/refuse.hpp"
 #include "jostle/math/symmetric_eigen.hpp"
 
 namespace jostle {
@@ -10,12 +11,8 @@ namespace jostle {
 namespace {
 
 [[noreturn]] void refuse_second_moment(const Mat3& second_moment, const std::string& problem) {
-    throw InputError({.key = "second_moment",
-                      .value = fmt::format("{}", fmt::join(second_moment.m, " ")),
-                      .problem = problem,
-                      .allowed = "finite, symmetric, positive semi-definite, and not of a body without width",
-                      .suggestion = "",
-                      .place = {}});
+    refuse("second_moment", fmt::format("{}", fmt::join(second_moment.m, " ")), problem,
+           "finite, symmetric, positive semi-definite, and not of a body without width");
 }
 
 /// Eigenvalues (ascending) and axes of N, or InputError.

@@ -5,8 +5,9 @@
 #include <numbers>
 #include <vector>
 
+#include "jostle/error/refuse.hpp"
 #include "jostle/rods/rods.hpp"
-#include "jostle/stress/refuse.hpp"
+#include "jostle/stress/body_size.hpp"
 #include "jostle/stress/spherocylinder_moments.hpp"
 
 namespace jostle {

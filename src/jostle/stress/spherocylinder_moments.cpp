@@ -4,7 +4,8 @@
 
 #include <numbers>
 
-#include "jostle/stress/refuse.hpp"
+#include "jostle/error/refuse.hpp"
+#include "jostle/stress/body_size.hpp"
 
 namespace jostle {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "jostle/error/require_value.hpp"
+#include "jostle/error/refuse.hpp"
 #include "jostle/math/symmetric_eigen.hpp"
 
 namespace jostle {

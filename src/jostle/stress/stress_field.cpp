@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "jostle/error/input_error.hpp"
+#include "jostle/error/refuse.hpp"
 #include "jostle/rods/space_filling_order.hpp"
 #include "jostle/stress/orientation_stress.hpp"
 
@@ -17,12 +18,7 @@ namespace {
 constexpr double max_cells = 1e6;
 
 [[noreturn]] void refuse_spacing(double spacing, std::string problem, std::string allowed) {
-    throw InputError({.key = "output.field_spacing",
-                      .value = fmt::format("{:.6g}", spacing),
-                      .problem = std::move(problem),
-                      .allowed = std::move(allowed),
-                      .suggestion = {},
-                      .place = {}});
+    refuse("output.field_spacing", fmt::format("{:.6g}", spacing), std::move(problem), std::move(allowed));
 }
 
 /// The two cells along one direction that share a point, and the part of the second.
@@ -47,12 +43,12 @@ StressField::StressField(const Box& box, double spacing) : box_(box) {
     if (!(spacing > 0.0) || !std::isfinite(spacing)) refuse_spacing(spacing, "is no distance", "greater than 0");
     double total = 1.0;
     for (int k = 0; k < 3; ++k) {
-        const double count = std::max(1.0, std::floor(box.edges[k] / spacing * (1.0 + 1e-12)));
+        const double count = std::max(1.0, std::floor(box.edges()[k] / spacing * (1.0 + 1e-12)));
         total *= count;
         if (total > max_cells)
             refuse_spacing(spacing, "makes too many cells", fmt::format("at most {:.0f} cells in all", max_cells));
         cells_[static_cast<std::size_t>(k)] = static_cast<std::size_t>(count);
-        edges_[k] = box.edges[k] / count;
+        edges_[k] = box.edges()[k] / count;
     }
     content_.resize(static_cast<std::size_t>(total));
 }
@@ -110,11 +106,11 @@ void StressField::deposit(const Vec3& point, Add&& add) {
     for (std::size_t k = 0; k < 3; ++k) {
         const int direction = static_cast<int>(k);
         const double place = point[direction];
-        if (!box_.periodic[k] && !(place >= 0.0 && place <= box_.edges[direction])) {
+        if (!box_.periodic()[k] && !(place >= 0.0 && place <= box_.edges()[direction])) {
             add(outside_, 1.0);
             return;
         }
-        share[k] = share_of(place, edges_[direction], cells_[k], box_.periodic[k]);
+        share[k] = share_of(place, edges_[direction], cells_[k], box_.periodic()[k]);
     }
     for (unsigned corner = 0; corner < 8; ++corner) {
         double weight = 1.0;
@@ -142,8 +138,8 @@ Vec3 StressField::centre(std::size_t cell) const {
 
 NamedNumbers StressField::to_named() const {
     NamedNumbers numbers;
-    numbers["edges"] = {box_.edges.x, box_.edges.y, box_.edges.z};
-    numbers["periodic"].assign(box_.periodic.begin(), box_.periodic.end());
+    numbers["edges"] = {box_.edges().x, box_.edges().y, box_.edges().z};
+    numbers["periodic"].assign(box_.periodic().begin(), box_.periodic().end());
     numbers["cells"].assign(cells_.begin(), cells_.end());
     numbers["steps"] = {steps_};
     auto &density = numbers["number_density"], &collision = numbers["collision"], &orientation = numbers["orientation"];
@@ -171,13 +167,13 @@ StressField StressField::from_named(const NamedNumbers& numbers) {
     };
     const auto &edges = values("edges", 3), &periodic = values("periodic", 3), &counts = values("cells", 3);
     const Box box{{edges[0], edges[1], edges[2]}, {periodic[0] != 0.0, periodic[1] != 0.0, periodic[2] != 0.0}};
-    StressField field(box, std::max({box.edges.x, box.edges.y, box.edges.z}));  // one cell or few, made anew below
+    StressField field(box, box.longest_edge());  // one cell or few, made anew below
     double total = 1.0;
     for (int k = 0; k < 3; ++k) {
         const double count = counts[static_cast<std::size_t>(k)];
         require(count >= 1.0 && count == std::floor(count) && (total *= count) <= max_cells);
         field.cells_[static_cast<std::size_t>(k)] = static_cast<std::size_t>(count);
-        field.edges_[k] = box.edges[k] / count;
+        field.edges_[k] = box.edges()[k] / count;
     }
     field.steps_ = values("steps", 1)[0];
     const auto cells = static_cast<std::size_t>(total);

@@ -65,8 +65,8 @@ std::vector<std::string> columns_of(const ContactForm& form) {
 Vec3 nearest_image(Vec3 distance, const std::optional<Box>& box, const char* of) {
     if (!box) return distance;
     for (int k = 0; k < 3; ++k) {
-        if (!box->periodic[static_cast<std::size_t>(k)]) continue;
-        const double edge = box->edges[k];
+        if (!box->periodic()[static_cast<std::size_t>(k)]) continue;
+        const double edge = box->edges()[k];
         distance[k] -= edge * std::round(distance[k] / edge);
         if (std::fabs(distance[k]) > (0.5 - 1e-9) * edge)
             throw InputError(
@@ -135,9 +135,9 @@ private:
         Vec3 displacement;
         for (int k = 0; k < 3; ++k) {
             const std::int64_t count = whole_number("image", image_[row][k]);
-            if (count != 0 && !box_->periodic[static_cast<std::size_t>(k)])
+            if (count != 0 && !box_->periodic()[static_cast<std::size_t>(k)])
                 throw InputError({.problem = "an image along a direction in which the box is open"});
-            displacement[k] = static_cast<double>(count) * box_->edges[k];
+            displacement[k] = static_cast<double>(count) * box_->edges()[k];
         }
         return displacement;
     }

@@ -44,7 +44,7 @@ Checkpoint two_rods(std::uint64_t step = 7) {
 
 bool same(const Checkpoint& a, const Checkpoint& b) {
     return a.scene == b.scene && a.state.clock.step == b.state.clock.step && a.state.clock.time == b.state.clock.time &&
-           a.state.box.edges == b.state.box.edges && a.state.box.periodic == b.state.box.periodic &&
+           a.state.box.edges() == b.state.box.edges() && a.state.box.periodic() == b.state.box.periodic() &&
            a.state.rods.centre == b.state.rods.centre && a.state.rods.axis == b.state.rods.axis &&
            std::signbit(a.state.rods.centre[0].y) == std::signbit(b.state.rods.centre[0].y) &&
            a.state.rods.length == b.state.rods.length && a.state.rods.diameter == b.state.rods.diameter &&
@@ -215,9 +215,18 @@ TEST_CASE("what no run has written is refused, though the checksum is right") {
         {"time = nan", [&](Checkpoint& c) { c.state.clock.time = nan; }},
         {"time = -1", [&](Checkpoint& c) { c.state.clock.time = -1.0; }},
         {"step = ", [&](Checkpoint& c) { c.state.clock.step = ~std::uint64_t{0}; }},
-        {"edge of the box = nan", [&](Checkpoint& c) { c.state.box.edges.x = nan; }},
-        {"edge of the box = 1e+300", [&](Checkpoint& c) { c.state.box.edges.y = 1e300; }},
-        {"edge of the box = 0", [&](Checkpoint& c) { c.state.box.edges.z = 0.0; }},
+        {"edge of the box = nan",
+         [&](Checkpoint& c) {
+             c.state.box = Box({nan, 10, 10});
+         }},
+        {"edge of the box = 1e+300",
+         [&](Checkpoint& c) {
+             c.state.box = Box({10, 1e300, 10});
+         }},
+        {"edge of the box = 0",
+         [&](Checkpoint& c) {
+             c.state.box = Box({10, 10, 0});
+         }},
         {"centre in row 1 = nan", [&](Checkpoint& c) { c.state.rods.centre[1].y = nan; }},
         {"centre in row 0 = 0.5", [&](Checkpoint& c) { c.state.rods.centre[0].x = 0.5; }},
         {"centre in row 1 = -1", [&](Checkpoint& c) { c.state.rods.centre[1].x = -1.0; }},

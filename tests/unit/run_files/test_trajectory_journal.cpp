@@ -51,8 +51,8 @@ TEST_CASE("frames come back, with a number of rods that changes") {
         const Rods rods = some_rods(count, step);
         CHECK(frame.step == step);
         CHECK(frame.time == 0.1 * step);
-        CHECK(frame.box.edges == Vec3{4, 5, 6.5 + step});
-        CHECK(frame.box.periodic == std::array<bool, 3>{true, false, true});
+        CHECK(frame.box.edges() == Vec3{4, 5, 6.5 + step});
+        CHECK(frame.box.periodic() == std::array<bool, 3>{true, false, true});
         REQUIRE(frame.size() == count);
         for (std::size_t i = 0; i < count; ++i) {
             CHECK(frame.id[i] == rods.id[i]);

@@ -23,7 +23,7 @@ Dense dense(std::uint64_t count, double length, double volume_fraction) {
     dense.scene.rods.length = length;
     dense.scene.time.rms_step = 0.03;
     const double edge = std::cbrt(static_cast<double>(count) * rod_volume(length, 1.0) / volume_fraction);
-    dense.box.edges = {edge, edge, edge};
+    dense.box = Box({edge, edge, edge});
     return dense;
 }
 

@@ -13,7 +13,7 @@ Rods points_in(const Box& box, std::uint64_t count) {
     Rods rods;
     for (std::uint64_t id = 0; id < count; ++id) {
         const auto u = uniform4({3, 0, Stream::test, id}, 0);
-        rods.push_back(id, {u[0] * box.edges.x, u[1] * box.edges.y, u[2] * box.edges.z}, {1, 0, 0}, 0.0, 1.0);
+        rods.push_back(id, box.point_at({u[0], u[1], u[2]}), {1, 0, 0}, 0.0, 1.0);
     }
     return rods;
 }
@@ -36,7 +36,7 @@ TEST_CASE("no point of a domain is within range of one in another domain of the 
             for (std::size_t j = 0; j < i; ++j) {
                 Vec3 between = rods.centre[i] - rods.centre[j];
                 for (int k = 0; k < 3; ++k)
-                    between[k] = nearest(between[k], box.edges[k], box.periodic[static_cast<std::size_t>(k)]);
+                    between[k] = nearest(between[k], box.edges()[k], box.periodic()[static_cast<std::size_t>(k)]);
                 if (norm(between) > range) continue;
                 const std::size_t a = domains.domain_of(rods.centre[i]), b = domains.domain_of(rods.centre[j]);
                 if (a != b) REQUIRE(domains.colour()[a] != domains.colour()[b]);
@@ -56,7 +56,7 @@ TEST_CASE("points of a domain lie in it, and in all of it") {
             const auto u = uniform4({4, domain, Stream::test, id}, 0);
             const Vec3 point = domains.point_in(domain, {u[0], u[1], u[2]});
             REQUIRE(domains.domain_of(point) == domain);
-            for (int k = 0; k < 3; ++k) REQUIRE((point[k] >= 0.0 && point[k] <= box.edges[k]));
+            for (int k = 0; k < 3; ++k) REQUIRE((point[k] >= 0.0 && point[k] <= box.edges()[k]));
         }
     for (std::size_t i = 0; i < rods.size(); ++i) ++met[domains.domain_of(rods.centre[i])];
     for (const int count : met) share += count > 0 ? 1.0 : 0.0;

@@ -16,8 +16,7 @@ Rods scattered(const Box& box, std::uint64_t count, double length, double diamet
     Rods rods;
     for (std::uint64_t id = 0; id < count; ++id) {
         const auto u = uniform4({1, 0, Stream::test, id}, 0), v = uniform4({1, 0, Stream::test, id}, 1);
-        rods.push_back(id, {u[0] * box.edges.x, u[1] * box.edges.y, u[2] * box.edges.z}, random_direction(v[0], v[1]),
-                       length, diameter);
+        rods.push_back(id, box.point_at({u[0], u[1], u[2]}), random_direction(v[0], v[1]), length, diameter);
     }
     return rods;
 }

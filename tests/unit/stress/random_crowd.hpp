@@ -18,7 +18,7 @@ struct Crowd {
     std::vector<Vec3> torque;
 
     explicit Crowd(std::mt19937_64& generator, const std::array<bool, 3>& periodic = {true, true, false}) {
-        box.periodic = periodic;
+        box = Box(box.edges(), periodic);
         std::uniform_real_distribution<double> uniform(0.0, 1.0);
         for (std::size_t k = 0; k < 40; ++k) {
             const Vec3 centre = {9 * uniform(generator), 8 * uniform(generator), 7 * uniform(generator)};
