@@ -11,6 +11,7 @@
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_box.hpp"
 #include "jostle/scene/scene_motion.hpp"
+#include "jostle/scene/schedule.hpp"
 #include "jostle/scene/step_limits.hpp"
 #include "jostle/scene/time_step.hpp"
 #include "jostle/scene/units.hpp"
@@ -52,7 +53,7 @@ void print(const char* name, const std::string& value) {
 
 std::string with_unit(double value, const Scene& scene, Dimension dimension) {
     const ReadableUnit unit = readable_unit(scene, unit_of(scene, dimension));
-    return fmt::format("{:.6g} {}", value * unit.factor, unit.name);
+    return fmt::format("{:.6g}{}{}", value * unit.factor, unit.name.empty() ? "" : " ", unit.name);
 }
 
 /// What numbers in the scene are in.
@@ -122,6 +123,40 @@ void print_motion(const Scene& scene, const MobilityOperator& mobility, const Ro
     }
 }
 
+/// One number of a ramp, or the edges of a box.
+std::string value_text(double value, const Scene& scene, Dimension dimension) {
+    return with_unit(value, scene, dimension);
+}
+std::string value_text(const Vec3& value, const Scene& scene, Dimension dimension) {
+    return fmt::format("{:.6g} x {:.6g} x {:.6g} {}", value.x, value.y, value.z, readable_unit_of(scene, dimension));
+}
+
+template <class Value>
+void print_ramp(const char* name, const Value& first, const Ramp<Value>& ramp, const Scene& scene,
+                Dimension dimension) {
+    if (ramp.empty()) return;
+    std::string text = value_text(first, scene, dimension);
+    for (const auto& [time, value] : ramp)
+        text += fmt::format(", at {} {}", with_unit(time, scene, dimension::time), value_text(value, scene, dimension));
+    print(name, text);
+}
+
+/// What the scene's schedule changes, from what to what.
+void print_schedule(const Scene& scene, const Box& box, double rods_volume) {
+    if (!has_schedule(scene)) return;
+    print_ramp("ramp of self_propulsion", scene.motion.self_propulsion, scene.schedule.self_propulsion, scene,
+               dimension::speed);
+    print_ramp("ramp of kT", scene.fluid.kT, scene.schedule.kT, scene, dimension::energy);
+    print_ramp("ramp of box edges", box.edges(), ramp_of_edges(scene, rods_volume), scene, dimension::length);
+    print_ramp("ramp of phi", rods_volume / box.volume(), scene.schedule.volume_fraction, scene, dimension::none);
+    const double end = schedule_end(scene), run = scene.time.equilibration.value_or(end) + scene.time.production;
+    if (run < end)
+        print("WARNING",
+              fmt::format("the run ends at {}, before the schedule does", with_unit(run, scene, dimension::time)));
+    if (scene.time.equilibration.value_or(end) < end)
+        print("averages", "take in the schedule: nothing is in equilibrium, and there are no error bars");
+}
+
 /// How many of its own clocks the production covers, and how much of it would do for error bars.
 void print_clocks(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, double phi) {
     constexpr double margin = 1.25;  // over what is needed at the least
@@ -188,8 +223,7 @@ void print_cost(const Scene& scene, const Population& population, const Box& box
     // In whole rows of the series, as they are run.
     const auto every = static_cast<double>(scene.output.series_every);
     const auto in_rows = [&](double time) { return every * std::ceil(time / (dt * every) - 1e-9); };
-    const double steps = in_rows(scene.time.equilibration.value_or(0.25 * scene.time.production)) +
-                         std::max(every, in_rows(scene.time.production));
+    const double steps = in_rows(expected_equilibration(scene)) + std::max(every, in_rows(scene.time.production));
     const PopulationGrowth growth = population_growth(scene, steps * dt);
     const double count = population.count * growth.end, filled = phi * growth.end;
     const bool colony = scene.growth.rate > 0.0 && !box.is_periodic();  // as dense as cells lie, whatever the box
@@ -246,6 +280,7 @@ ExitCode check(const Scene& scene, const std::string& scene_path) {
     if (const std::string warning = start_warning(scene, phi); !warning.empty()) print("WARNING", warning);
     print("box", fmt::format("{:.6g} x {:.6g} x {:.6g} {}", box.edges().x, box.edges().y, box.edges().z,
                              readable_unit_of(scene, dimension::length)));
+    print_schedule(scene, box, population.volume);
     print("time step", with_unit(dt, scene, dimension::time));
     for (const std::string& warning : warnings_of_step(limits, dt)) print("WARNING", warning);
     print_motion(scene, *mobility, population.rods, dt);
@@ -255,8 +290,10 @@ ExitCode check(const Scene& scene, const std::string& scene_path) {
         const auto& [x, y, z] = field->cells();
         print("stress field", fmt::format("{} x {} x {} cells", x, y, z));
     }
-    print_clocks(scene, *mobility, population.rods, phi);
-    print_cost(scene, population, box, dt);
+    const Ramp<Vec3> ramp_of_box = ramp_of_edges(scene, population.volume);
+    const Box last = {ramp_of_box.empty() ? box.edges() : ramp_of_box.back().value, box.periodic()};
+    print_clocks(scene_at_end(scene), *mobility, population.rods, population.volume / last.volume());
+    print_cost(scene, population, last, dt);
     return ExitCode::done;
 }
 

@@ -18,18 +18,27 @@ struct IsOptional : std::false_type {};
 template <class Value>
 struct IsOptional<std::optional<Value>> : std::true_type {};
 
+template <class Member>
+struct IsRamp : std::false_type {};
+template <class Value>
+struct IsRamp<Ramp<Value>> : std::true_type {};
+
 // One overload a kind of key: kind, allowed values and dimension.
 
 template <class Member>
 nlohmann::json description(const Member&, const Quantity& quantity) {
     constexpr bool is_vector = std::is_same_v<Member, Vec3> || std::is_same_v<Member, std::optional<Vec3>>;
     const Range& range = quantity.range;
-    return {{"kind", is_vector ? "three numbers" : "number"},
+    const bool is_ramp_of_vectors = std::is_same_v<Member, Ramp<Vec3>>;
+    return {{"kind", is_ramp_of_vectors      ? "[time, three numbers]s"
+                     : IsRamp<Member>::value ? "[time, number]s"
+                     : is_vector             ? "three numbers"
+                                             : "number"},
             {"at_least", range.lower},
             {"at_most", range.upper},
             {"ends_included", {range.lower_included, range.upper_included}},
             {"auto", quantity.automatic},
-            {"optional", IsOptional<Member>::value},
+            {"optional", IsOptional<Member>::value || IsRamp<Member>::value},
             {"micro_unit", micro_unit_of(quantity.dimension)}};
 }
 template <class Member>

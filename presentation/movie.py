@@ -60,7 +60,7 @@ def all_frames(frames):
 
     joined = {name: np.concatenate([getattr(frame, name) for frame in frames])
               for name in ("id", "centre", "image", "axis", "length", "diameter")}
-    return dataclasses.replace(frames[-1], **joined)
+    return dataclasses.replace(frames[-1], edges=np.max([frame.edges for frame in frames], axis=0), **joined)
 
 
 def draw_frames(run, rods, way, camera, width, folder):

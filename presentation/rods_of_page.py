@@ -1,5 +1,6 @@
 """The rods that the page turns: which frames, where they are, how they may be coloured, and what was left out."""
 
+import dataclasses
 import re
 from dataclasses import dataclass, field
 
@@ -88,14 +89,12 @@ def _describe(run, made):
     frames = made.frames
     extent = _extent(frames)
     rods = packed_rods(frames, extent)
-    low, high = povray_scene.extent(frames[-1])
     camera = made.camera
     factor, _ = run.in_unit("time")
     rods.told["times"] = [factor * time for time in rods.told["times"]]
     made.told = {"rods": rods.told, "colourings": [colourings.told(way, rods) for way in made.ways], "map": _map(), "swim": run.propelled,
                  "start": made.start, "length_unit": run.in_unit("max_overlap")[1],
-                 "seen": _seen(frames[-1]).tolist(),
-                 "box": [low.tolist(), high.tolist()] if frames[-1].periodic.any() else None,
+                 "seen": _seen(frames).tolist(), "boxes": _boxes(frames),
                  "camera": {"back": (-camera.direction).tolist(), "pole": camera.pole.tolist()}}
     made.elements = rods.elements
     if (run.folder / "contacts.csv").exists():
@@ -114,8 +113,16 @@ def _extent(frames):
     return points.min(axis=0) - reach, points.max(axis=0) + reach
 
 
-def _seen(frame):
+def _boxes(frames):
+    """(lowest, highest corner) of the box in each frame, or one where it does not change; none where it is open."""
+    changes = any((frame.edges != frames[-1].edges).any() for frame in frames)
+    drawn = frames if changes else frames[-1:]
+    return [[corner.tolist() for corner in povray_scene.extent(frame)] for frame in drawn if frame.periodic.any()]
+
+
+def _seen(frames):
     """Points that the picture must hold: the corners of a periodic box, else the outermost ends of rods all around."""
+    frame = dataclasses.replace(frames[-1], edges=np.max([frame.edges for frame in frames], axis=0))
     low, high = povray_scene.extent(frame)
     corners = low + np.array(list(np.ndindex(2, 2, 2))) * (high - low)
     if frame.periodic.any() or len(frame) == 0:

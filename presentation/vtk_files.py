@@ -1,7 +1,7 @@
 """VTK XML for ParaView: trajectory.pvd names one .vtp file a frame with its time; each rod is a line of two points.
 
 Arrays of lines: id, length, diameter, axis. Of points: radius, for tubes and spheres. view.py, run by ParaView, draws
-the rods as spherocylinders.
+the rods as spherocylinders. Where the box changes, box.pvd names its edges likewise, one file a frame.
 """
 
 import base64
@@ -10,8 +10,8 @@ import re
 import numpy as np
 
 MARK = "<!-- made by jostle export -->"
-COLLECTION, VIEW = "trajectory.pvd", "view.py"
-OUR_NAMES = re.compile(r"trajectory\.pvd|view\.py|frame_\d{6,}\.vtp")
+COLLECTION, BOX, VIEW = "trajectory.pvd", "box.pvd", "view.py"
+OUR_NAMES = re.compile(r"(trajectory|box)\.pvd|view\.py|(frame|box)_\d{6,}\.vtp")
 KINDS = {"f4": "Float32", "i8": "Int64"}
 
 VIEW_PROGRAM = '''# Draws the run in ParaView: Tools > Python Shell > Run Script, or paraview --script=view.py here.
@@ -38,7 +38,7 @@ for part in (tubes, balls):
     shown.ColorArrayName = [None, ""]
     shown.DiffuseColor = shown.AmbientColor = [0.34, 0.55, 0.75]
     shown.Specular = 0.3
-box = Box(registrationName="box", XLength={x!r}, YLength={y!r}, ZLength={z!r}, Center=[{x!r} / 2, {y!r} / 2, {z!r} / 2])
+{box}
 outline = Show(box, view)
 outline.Representation = "Outline"
 outline.AmbientColor = outline.DiffuseColor = [0.4, 0.4, 0.4]
@@ -51,6 +51,9 @@ ResetCamera()
 Render()
 '''
 
+STEADY_BOX = 'box = Box(registrationName="box", XLength={x!r}, YLength={y!r}, ZLength={z!r}, Center=[{x!r} / 2, {y!r} / 2, {z!r} / 2])'
+CHANGING_BOX = f'box = PVDReader(registrationName="box", FileName=os.path.join(folder, "{BOX}"))'
+
 
 def is_ours(folder):
     """Whether every file in the folder is of this export."""
@@ -60,32 +63,56 @@ def is_ours(folder):
 
 
 def write(folder, trajectory):
-    entries = []
+    times, edges = [], []
     for number, frame in enumerate(trajectory):
-        name = f"frame_{number:06d}.vtp"
-        (folder / name).write_text(frame_text(frame), encoding="ascii")
-        entries.append(f'    <DataSet timestep="{frame.time!r}" part="0" file="{name}"/>\n')
-    (folder / COLLECTION).write_text(
-        f'<?xml version="1.0"?>\n{MARK}\n<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">\n'
-        f'  <Collection>\n{"".join(entries)}  </Collection>\n</VTKFile>\n', encoding="ascii")
-    x, y, z = map(float, trajectory.frame(0).edges)
-    (folder / VIEW).write_text(VIEW_PROGRAM.format(x=x, y=y, z=z), encoding="ascii")
+        (folder / name_of("frame", number)).write_text(frame_text(frame), encoding="ascii")
+        times.append(frame.time)
+        edges.append(tuple(map(float, frame.edges)))
+    write_collection(folder / COLLECTION, "frame", times)
+    box = STEADY_BOX.format(**dict(zip("xyz", edges[0])))
+    if len(set(edges)) > 1:
+        for number, of_frame in enumerate(edges):
+            (folder / name_of("box", number)).write_text(box_text(of_frame), encoding="ascii")
+        write_collection(folder / BOX, "box", times)
+        box = CHANGING_BOX
+    (folder / VIEW).write_text(VIEW_PROGRAM.format(box=box), encoding="ascii")
+
+
+def name_of(kind, number):
+    return f"{kind}_{number:06d}.vtp"
+
+
+def write_collection(path, kind, times):
+    entries = "".join(f'    <DataSet timestep="{time!r}" part="0" file="{name_of(kind, number)}"/>\n' for number, time in enumerate(times))
+    path.write_text(f'<?xml version="1.0"?>\n{MARK}\n<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">\n'
+                    f'  <Collection>\n{entries}  </Collection>\n</VTKFile>\n', encoding="ascii")
+
+
+def box_text(edges):
+    """The corners of a box, whose outline is drawn."""
+    corners = np.array(list(np.ndindex(2, 2, 2))) * edges
+    return poly_text("Verts", corners, np.arange(8), np.arange(1, 9), "", "")
 
 
 def frame_text(frame):
     count = len(frame)
-    points = frame.ends().reshape(-1, 3)
+    return poly_text("Lines", frame.ends().reshape(-1, 3), np.arange(2 * count), 2 * np.arange(1, count + 1),
+                     array("radius", np.repeat(0.5 * frame.diameter, 2), "f4"),
+                     array("id", frame.id, "i8") + array("length", frame.length, "f4")
+                     + array("diameter", frame.diameter, "f4") + array("axis", frame.axis, "f4"))
+
+
+def poly_text(kind, points, connectivity, offsets, of_points, of_cells):
+    """A file of points, and of "Lines" or "Verts" between them."""
+    counts = "".join(f' NumberOf{name}="{len(offsets) if name == kind else 0}"' for name in ("Verts", "Lines", "Strips", "Polys"))
+    scalars = ' Scalars="radius"' if of_points else ""
     return "".join((
         f'<?xml version="1.0"?>\n{MARK}\n'
         '<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<PolyData>\n',
-        f'<Piece NumberOfPoints="{2 * count}" NumberOfVerts="0" NumberOfLines="{count}" NumberOfStrips="0" '
-        'NumberOfPolys="0">\n',
+        f'<Piece NumberOfPoints="{len(points)}"{counts}>\n',
         "<Points>\n", array("points", points, "f4"), "</Points>\n",
-        "<Lines>\n", array("connectivity", np.arange(2 * count), "i8"),
-        array("offsets", 2 * np.arange(1, count + 1), "i8"), "</Lines>\n",
-        '<PointData Scalars="radius">\n', array("radius", np.repeat(0.5 * frame.diameter, 2), "f4"), "</PointData>\n",
-        "<CellData>\n", array("id", frame.id, "i8"), array("length", frame.length, "f4"),
-        array("diameter", frame.diameter, "f4"), array("axis", frame.axis, "f4"), "</CellData>\n",
+        f"<{kind}>\n", array("connectivity", connectivity, "i8"), array("offsets", offsets, "i8"), f"</{kind}>\n",
+        f"<PointData{scalars}>\n", of_points, "</PointData>\n", "<CellData>\n", of_cells, "</CellData>\n",
         "</Piece>\n</PolyData>\n</VTKFile>\n"))
 
 

@@ -91,6 +91,12 @@ def ask(jostle, scene, *words):
     return told
 
 
+def keys_that_may_change(jostle):
+    """Full keys of a scene with which a run goes on as the same, by the program's own list."""
+    told = subprocess.run([jostle, "keys", "--json"], capture_output=True, text=True, check=True).stdout
+    return {key["key"] for key in json.loads(told) if key["may_change"]}
+
+
 def ask_all(jostle, requests, processes):
     """The same for (scene, *words) of every request, in their order: Told or BadScene."""
     def answer(request):

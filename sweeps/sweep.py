@@ -31,7 +31,6 @@ NEEDED = {"numpy": "python3-numpy", "scipy": "python3-scipy"}
 NEEDED_TO_DRAW = {"matplotlib": "python3-matplotlib"}
 MOST = {"replicas": 10000, "processes": 4096}
 MOST_POINTS = 100000
-ENDS = ("title", "time.production", "time.equilibration")  # keys that may change when a sweep goes on
 FAILED = 3
 
 
@@ -89,7 +88,8 @@ class Sweep:
         constants = {key: parsed(values[0]) for key, values in keys.items() if len(values) == 1}
         self.keys = [*(key for key in keys if key not in constants), *(["time.rms_step"] if steps else []), *(["seed"] if seeds else [])]
         base = {**flat(content), **constants}
-        self.base = {key: value for key, value in base.items() if key not in (*self.keys, *ENDS)}
+        free = side_by_side.keys_that_may_change(self.jostle)
+        self.base = {key: value for key, value in base.items() if key not in self.keys and key not in free}
 
     @staticmethod
     def seeds(replicas, keys, content):

@@ -32,7 +32,6 @@ export class RodsView {
     this.forces = false;
     this.fineness = 1;
     this.cost = 0;                // milliseconds for a million pixels
-    this.drawEdges();
     moveByHand(canvas, this.camera, () => this.moved());
     new ResizeObserver(() => this.moved()).observe(canvas);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.moved());
@@ -42,6 +41,7 @@ export class RodsView {
   show(frame) {
     this.frame = frame;
     const { rods } = this.told;
+    this.drawEdges();
     const thin = this.forces ? THIN : 1;
     const scale = { low: rods.low, span: rods.span, length: rods.length, diameter: rods.diameter.map((d) => d * thin) };
     this.rods.set(this.frames.instances(frame), scale);
@@ -60,10 +60,14 @@ export class RodsView {
     this.moved();
   }
 
+  /** The box of the frame; one stands for all where it does not change. */
   drawEdges() {
-    if (!this.told.box) return;
+    const { boxes } = this.told;
+    const box = boxes[Math.min(this.frame, boxes.length - 1)];
+    if (!box || box === this.drawnBox) return;
+    this.drawnBox = box;
     const { low: origin, span } = this.told.rods;
-    const [low, high] = this.told.box;
+    const [low, high] = box;
     const size = minus(high, low);
     const longest = Math.max(...size);
     const instances = [];
@@ -84,7 +88,7 @@ export class RodsView {
     const background = backgroundOf(this.canvas);
     const half = 0.5 * Math.hypot(...minus(...[...this.camera.extent].reverse()));
     return {
-      batches: [this.rods, ...(this.box && this.told.box ? [this.edges] : []), ...(this.forces ? [this.lines] : [])],
+      batches: [this.rods, ...(this.box && this.told.boxes.length ? [this.edges] : []), ...(this.forces ? [this.lines] : [])],
       background,
       head: HEAD,
       slab: this.slab,
@@ -145,9 +149,9 @@ export class RodsView {
 }
 
 /** How far rods stick out of what is to be seen, about: of a periodic box that holds their centres. */
-function reach({ rods, box }) {
+function reach({ rods, boxes }) {
   const [longest, thickest] = [rods.length, rods.diameter].map(([least, range]) => least + range);
-  return box ? 0.3 * longest + 0.5 * thickest : 0.5 * thickest;
+  return boxes.length ? 0.3 * longest + 0.5 * thickest : 0.5 * thickest;
 }
 
 function repeated(colour, count) {

@@ -35,6 +35,13 @@ template <class Number>
 py::object shown(const std::optional<Number>& member) {
     return member ? shown(*member) : py::none();
 }
+template <class Value>
+py::object shown(const Ramp<Value>& member) {
+    if (member.empty()) return py::none();
+    py::list points;
+    for (const auto& [time, value] : member) points.append(py::make_tuple(time, shown(value)));
+    return points;
+}
 
 /// (table, name) of every key.
 std::vector<std::array<std::string, 2>> keys() {
@@ -59,6 +66,9 @@ template <class Member>
 bool taken_away(Member& member) {
     if constexpr (requires { member.reset(); }) {
         member.reset();
+        return true;
+    } else if constexpr (requires { member.back().time; }) {
+        member.clear();
         return true;
     }
     return false;

@@ -27,8 +27,9 @@ from .lcp import LcpResult, solve_lcp
 from .recording import Recording
 from .run import Run, load
 from .scene import Scene
-from .simulation import Simulation, StepFailure, StepReport
+from .simulation import Simulation
 from .statistics import Average, average
+from .step_report import StepFailure, StepReport
 from .stress import ContactStress, PairStress, collision_stress, contact_stress, orientation_stress, pair_stress
 from .sweeps import Sweep, sweep
 from .threads import set_thread_count, thread_count

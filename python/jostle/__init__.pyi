@@ -47,6 +47,7 @@ class Scene:
     mobility: _Table
     motion: _Table
     growth: _Table
+    schedule: _Table
     springs: _Table
     contact: _Table
     solver: _Table

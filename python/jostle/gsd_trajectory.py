@@ -11,6 +11,15 @@ from ._jostle import refuse
 from .trajectory import Frame
 
 
+def require_gsd(path):
+    """The module gsd.hoomd, for a file that is to be read or written. Raises InputError where it is not there."""
+    try:
+        import gsd.hoomd
+    except ImportError:
+        refuse("", "", "needs the package gsd, which is not there", suggestion="Run: apt-get install python3-gsd, or take H5MD (.h5)", file=str(path))
+    return gsd.hoomd
+
+
 class GsdTrajectory(Sequence):
     """Frames of a GSD file, read one by one when they are asked for; the box counts as periodic in all directions.
 
@@ -19,15 +28,12 @@ class GsdTrajectory(Sequence):
     """
 
     def __init__(self, path):
-        try:
-            import gsd.hoomd
-        except ImportError:
-            refuse("", "", "cannot be read without the package gsd", suggestion="Run: apt-get install python3-gsd", file=str(path))
+        hoomd = require_gsd(path)
         from .gsd_frames import name_in_ascii
         self.path = Path(path)
         try:
             with name_in_ascii(self.path, os.O_RDONLY) as name:
-                self._file = gsd.hoomd.open(name, "rb")
+                self._file = hoomd.open(name, "rb")
         except (OSError, RuntimeError) as error:
             refuse("", "", f"cannot be read: {' '.join(str(error).split())}", file=str(path))
 

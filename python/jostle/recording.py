@@ -6,6 +6,7 @@ from pathlib import Path
 from . import _jostle
 from ._arrays import whole_number
 from ._jostle import refuse
+from .gsd_trajectory import require_gsd
 
 ENDINGS = {".h5": "H5MD", ".h5md": "H5MD", ".gsd": "GSD"}
 
@@ -29,7 +30,7 @@ class Recording:
         if every == 0 and core.scene().get("output.trajectory_every") == 0:
             refuse("every", "", "is missing, and the scene keeps no frames: output.trajectory_every = 0", "a number of steps")
         if self.path.suffix == ".gsd":
-            _require_gsd()
+            require_gsd(self.path)
         number = core.record(str(self.journal), every)
         self._frames = lambda: core.frames_of(number)
         self._end = weakref.finalize(self, _end, core, number, self.path, self.journal)
@@ -71,10 +72,3 @@ def _end(core, number, path, journal):
             beside.unlink(missing_ok=True)
             raise _jostle.DiskError(f"{str(path)!r}: cannot write it: {error.strerror}") from None
     journal.unlink(missing_ok=True)
-
-
-def _require_gsd():
-    try:
-        import gsd.hoomd  # noqa: F401
-    except ImportError:
-        refuse("file", "", "in GSD needs the package gsd", suggestion="Run: apt-get install python3-gsd, or give a file that ends in .h5")

@@ -1,7 +1,6 @@
 """Simulations, step by step."""
 
 import json
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -10,62 +9,16 @@ from . import _jostle
 from ._arrays import whole_number, with_shape
 from ._jostle import DiskError, refuse
 from .own_columns import OwnColumns
+from .own_motions import asking
 from .recording import Recording
 from .scene import Scene
 from .start import core_with_rods
+from .step_report import Clock, StepFailure, StepReport
 from .stress import orientation_stress
 
 CONTACT = np.dtype([("id_i", np.uint64), ("id_j", np.uint64), ("image", np.int32, 3), ("force", float), ("gap", float),
                     ("normal", float, 3), ("arm_i", float), ("arm_j", float)])
 LINEAGE = np.dtype([("birth", bool), ("id", np.uint64), ("mother", np.uint64), ("length", float)])
-
-
-class StepFailure(RuntimeError):
-    """Contacts were not resolved, or rods overlap by more than `contact.overlap_limit`; where `jostle run` exits with 3.
-
-    report : StepReport of the step. If it did not converge, no rod has been moved.
-    """
-
-    def __init__(self, message, report):
-        super().__init__(message, report)  # both, or it could not be brought from one process to another
-        self.report = report
-
-    def __str__(self):
-        return self.args[0]
-
-
-@dataclass(frozen=True)
-class StepReport:
-    """What happened in one step.
-
-    step, time : number of the step, and when it began
-    rods, contacts, active_contacts : how many took part; contacts that might touch, and those with a force
-    converged, residual, iterations, solves : of the contact problem
-    max_overlap : length, largest overlap of two rods when the step began, after growth
-    collision_virial, spring_virial : (3, 3) arrays, volume times the stress of collisions, and of springs
-    seconds : dict, wall time of the five parts of the step
-    """
-    step: int
-    time: float
-    rods: int
-    converged: bool
-    residual: float
-    iterations: int
-    solves: int
-    contacts: int
-    active_contacts: int
-    max_overlap: float
-    collision_virial: np.ndarray
-    spring_virial: np.ndarray
-    seconds: dict
-
-
-@dataclass(frozen=True)
-class Clock:
-    """Steps done, simulated time, and the length of a step."""
-    step: int
-    time: float
-    time_step: float
 
 
 class Simulation:
@@ -136,13 +89,7 @@ class Simulation:
         """Adds a motion of your own, felt from the next step on; see Simulation for what it is called with."""
         if not callable(motion):
             refuse("motion", repr(motion), "cannot be called", "a function of (rods, clock)")
-        core = self._core  # not self: what the extension holds must not hold this object
-
-        def ask(step, time_step):
-            rods = core.rods()
-            return _velocities(motion(rods, Clock(step, step * time_step, time_step)), len(rods))
-
-        core.add_motion(ask)
+        self._core.add_motion(asking(self._core, motion))  # not self: what the extension holds must not hold this object
 
     def step(self):
         """Makes one step, and tells of it. Raises StepFailure, and what motions raise.
@@ -425,11 +372,3 @@ class Simulation:
     def __repr__(self):
         clock = self.clock
         return f"<jostle.Simulation of {len(self)} rods, step {clock.step}, time {clock.time:.6g}>"
-
-
-def _velocities(given, count):
-    """What a motion returned, as (N, 6)."""
-    both = isinstance(given, tuple) and len(given) == 2
-    linear = with_shape("velocities of a motion", given[0] if both else given, (count, 3))
-    angular = with_shape("angular velocities of a motion", given[1] if both else np.zeros((count, 3)), (count, 3))
-    return np.hstack((linear, angular))

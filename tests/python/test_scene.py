@@ -185,3 +185,19 @@ def test_all_mistakes_are_told_at_once():
     mistakes = [refused.value, *refused.value.others]
     assert [one.key for one in mistakes] == ["box.volume_fraction", "rods.length", "time.dt"] and [one.line for one in mistakes] == [2, 5, 7]
     assert str(refused.value).splitlines()[1] == str(mistakes[1]) and mistakes[2].others == []
+
+
+def test_ramps_are_lists_of_points():
+    scene = jostle.Scene(box={"volume_fraction": 0.1}, rods={"count": 9, "length": 1.0}, time={"production": 1.0},
+                  schedule={"kT": [[2.0, 0.5]], "edges": [[1, [9, 9, 9]], [2.5, np.array([8.0, 9.0, 9.0])]]})
+    assert scene.schedule.kT == [(2.0, 0.5)]
+    assert scene.schedule.edges == [(1.0, (9.0, 9.0, 9.0)), (2.5, (8.0, 9.0, 9.0))]
+    scene.schedule.kT = scene.schedule.kT + [(3.0, 1.0)]
+    assert "kT = [[2.0, 0.5], [3.0, 1.0]]" in scene.to_toml()
+    scene.schedule.kT = None
+    assert scene.schedule.kT is None and "kT = [[" not in scene.to_toml()
+    with pytest.raises(jostle.InputError, match="is no point of a ramp"):
+        scene.schedule.kT = [2.0, 0.5]
+    scene.schedule.kT = [[2.0, 0.5], [1.0, 0.5]]
+    with pytest.raises(jostle.InputError, match="is no later than the time of the point before"):
+        scene.validate()

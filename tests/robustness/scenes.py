@@ -22,6 +22,8 @@ BASES = [
     {**SMALL, "contact": {"model": "wca", "energy": 1.0}, "time": {"rms_step": 0.01, "production": 0.1}},
     {**SMALL, "output": {"trajectory_every": 5, "contacts": True, "field_every": 20, "stress_per_rod": True,
                          "stress_conventions": True}},
+    {**SMALL, "motion": {"self_propulsion": 0.1}, "schedule": {"volume_fraction": [[0.5, 0.4]], "kT": [[0.3, 2.0], [0.6, 1.0]],
+                                                               "self_propulsion": [[0.2, 0.1], [0.7, 0.5]]}},
     {**SMALL, "rods": {"start": "file", "file": "rods.csv", "length": 2.0}},
     {**SMALL, "rods": {"start": "file", "file": "rods.csv", "length": 2.0}, "springs": {"file": "springs.csv"}},
     {**SMALL, "units": {"system": "micro"}, "rods": {"count": 12, "length": "2 um", "diameter": "1 um"},
@@ -59,8 +61,16 @@ def fitting_value(key, random):
     if key.get("auto") and random.random() < 0.2:
         return "auto"
     if kind == "three numbers":
-        return [number_near(key, random) for _ in range(3)]
+        return three_numbers_near(key, random)
+    if kind.startswith("[time, "):
+        value = three_numbers_near if "three" in kind else number_near
+        times = [10.0**random.uniform(-3, 2) for _ in range(random.randrange(1, 4))]
+        return [[time, value(key, random)] for time in (sorted(times) if random.random() < 0.8 else times)]
     return number_near(key, random)
+
+
+def three_numbers_near(key, random):
+    return [number_near(key, random) for _ in range(3)]
 
 
 def number_near(key, random):

@@ -57,6 +57,9 @@ public:
     /// The contacts of violated pairs, which the caller adds to those of the step.
     Contacts activate(std::span<const PairKey> violated, const StepGeometry& step);
 
+    /// To be told where the box is stretched, and all centres with it.
+    void stretch(const Vec3& by) { neighbours_.stretch(by); }
+
     /// Forgets the neighbour list (rods were added, removed or renumbered).
     void invalidate() { neighbours_.invalidate(); }
 

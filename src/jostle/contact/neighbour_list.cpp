@@ -226,6 +226,17 @@ void NeighbourList::widen(const Rods& rods, const Box& box, std::span<const doub
     built_while_widened_ = refresh(rods, box, needed) || built_while_widened_;
 }
 
+// A stretch e moves two centres less than `range_` apart by e range_ against each other at most; and farther ones,
+// whose gap was above the skin, stay beyond range_ (1 - e).
+void NeighbourList::stretch(const Vec3& by) {
+    double strain = 0.0;
+    for (int k = 0; k < 3; ++k) strain = std::max(strain, std::fabs(by[k] - 1.0));
+    squeezed_ += strain * range_;
+    parallel_for(reference_.centre.size(), [&](std::size_t i) {
+        for (int k = 0; k < 3; ++k) reference_.centre[i][k] *= by[k];
+    });
+}
+
 bool NeighbourList::refresh(const Rods& rods, const Box& box, std::span<const double> reach) {
     extent_.resize(rods.size());
     crossed_.resize(rods.size());
@@ -251,7 +262,7 @@ double NeighbourList::find_extents(const Rods& rods, const Box& box, std::span<c
         const Vec3 &axis = rods.axis[i], &before = reference_.axis[i];
         const Vec3 turned = dot(axis, before) < 0.0 ? axis + before : axis - before;
         const double extent = farthest_displacement(moved, turned, 0.5 * reference_.length[i]) +
-                              0.5 * std::max(0.0, rods.length[i] - reference_.length[i]) + reach[i];
+                              0.5 * std::max(0.0, rods.length[i] - reference_.length[i]) + 0.5 * squeezed_ + reach[i];
         extent_[i] = in_units(extent);
         return extent;
     });
@@ -291,7 +302,8 @@ void NeighbourList::build(const Rods& rods, const Box& box, double skin) {
     });
     const double longest =
         parallel_max(rods.size(), 0.0, [&](std::size_t i) { return rods.length[i] + rods.diameter[i]; });
-    const double range = longest + skin;
+    const double range = range_ = longest + skin;
+    squeezed_ = 0.0;
     const CellList cells(rods, box, range);
     const ImageNumbers images(cells.farthest_image());
     images_ = images.all();

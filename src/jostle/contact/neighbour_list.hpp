@@ -42,6 +42,9 @@ public:
     /// tells which pairs were close without.
     void widen(const Rods& rods, const Box& box, std::span<const double> reach, std::span<const Overreach> farther);
 
+    /// To be told where the box is stretched, and all centres with it: gaps of the pairs that count change little.
+    void stretch(const Vec3& by);
+
     /// Forces building at the next update (rods were added, removed or renumbered).
     void invalidate() { reference_.centre.clear(); }
 
@@ -97,6 +100,8 @@ private:
 
     double travel_;
     double skin_ = 0.0;
+    double range_ = 0.0;             ///< of centres, within which pairs were looked for
+    double squeezed_ = 0.0;          ///< by so much gaps have changed since, at most, with the box alone
     double units_per_length_ = 0.0;  ///< gaps are kept in units of which 65535 are the skin
     struct Reference {
         std::vector<Vec3> centre, axis;

@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jostle/scene/schedule.hpp"
+
 namespace jostle {
 
 namespace {
 
 constexpr double wanted_frames = 100.0, least_frames = 2.0, max_rods_in_frames = 2e7;
 constexpr double a_decade = 20.0;
-/// Of the production, that equilibration is taken to last where it is detected.
-constexpr double expected_equilibration = 0.25;
 
 std::uint64_t automatic_period(const Scene& scene, double time_step, double rods) {
-    const double production = scene.time.production;
-    const double time = scene.time.equilibration.value_or(expected_equilibration * production) + production;
+    const double time = expected_equilibration(scene) + scene.time.production;
     if (scene.growth.rate > 0.0) rods = static_cast<double>(scene.rods.count);  // the same when a run goes on
     const double frames = std::clamp(max_rods_in_frames / std::max(rods, 1.0), least_frames, wanted_frames);
     return static_cast<std::uint64_t>(std::clamp(std::round(time / time_step / frames), 1.0, 1e15));

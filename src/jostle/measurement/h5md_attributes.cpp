@@ -2,6 +2,7 @@
 
 #include "jostle/run_files/version.hpp"
 #include "jostle/scene/scene_motion.hpp"
+#include "jostle/scene/schedule.hpp"
 #include "jostle/scene/units.hpp"
 
 namespace jostle {
@@ -15,7 +16,8 @@ H5mdAttributes h5md_attributes(const Scene& scene) {
     attributes.time_unit = unit_of(scene, dimension::time);
     attributes.stress_unit = unit_of(scene, dimension::stress);
     attributes.energy_unit = unit_of(scene, dimension::energy);
-    attributes.kT = thermal_energy(scene);
+    if (thermal_energy(scene_at_its_hardest(scene)) > 0.0)
+        attributes.kT = [scene](double time) { return thermal_energy(scene_at(scene, time)); };
     return attributes;
 }
 

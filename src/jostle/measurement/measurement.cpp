@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "jostle/measurement/summary.hpp"
+#include "jostle/scene/schedule.hpp"
 #include "jostle/setup/free_clocks.hpp"
 #include "jostle/setup/largest_overlap.hpp"
 
@@ -33,7 +34,8 @@ Measurement::Measurement(const Scene& scene, const Simulation& simulation, StepS
       series_(begun(std::move(earlier_rows), series_columns_)),
       begin_(series_.rows() > 0 ? 0.0 : simulation.clock().time - sums_.steps * simulation.settings().time_step),
       length_(scene_, simulation.settings().time_step,
-              free_clocks(scene_, *simulation.mobility().at(simulation.rods(), simulation.box()), simulation.rods()),
+              free_clocks(scene_at_end(scene_), *simulation.mobility().at(simulation.rods(), simulation.box()),
+                          simulation.rods()),
               begin_),
       frame_steps_(scene_, simulation.settings().time_step, static_cast<double>(simulation.rods().size())) {}
 

@@ -1,5 +1,7 @@
 #include "jostle/measurement/production_window.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -7,6 +9,7 @@
 
 #include "jostle/measurement/summary_entries.hpp"
 #include "jostle/scene/scene_motion.hpp"
+#include "jostle/scene/schedule.hpp"
 #include "jostle/statistics/equilibration.hpp"
 #include "jostle/stress/column_names.hpp"
 
@@ -31,6 +34,14 @@ WatchedColumn watched(const SeriesTable& series, std::size_t first, const char* 
     return {words, std::move(rows)};
 }
 
+/// What is ramped is not in equilibrium.
+EquilibriumCheck by_schedule(const Scene& scene) {
+    EquilibriumCheck check;
+    check.verdict = Verdict::drifting;
+    check.reason = fmt::format("{} until time {:.6g}", names_of_schedule(scene), schedule_end(scene));
+    return check;
+}
+
 ProductionSeries production_series(const Scene& scene, const SeriesTable& series, double begin, std::size_t first,
                                    bool turn) {
     const std::vector<double>& time = series.column("time");
@@ -48,6 +59,10 @@ ProductionSeries production_series(const Scene& scene, const SeriesTable& series
 
 }  // namespace
 
+bool is_ramped(const Scene& scene, const ProductionWindow& window) {
+    return window.equilibration_time < schedule_end(scene) * (1.0 - 1e-12);
+}
+
 ProductionWindow production_window(const Scene& scene, const SeriesTable& series, const FreeClocks& clocks,
                                    double begin) {
     const std::vector<double>& time = series.column("time");
@@ -59,14 +74,23 @@ ProductionWindow production_window(const Scene& scene, const SeriesTable& series
     } else {
         // The order may still be drifting when the pressure has settled, so the later start counts. But its own slow
         // fluctuations leave few independent samples even in equilibrium: whether it was reached, the pressure says.
-        const Equilibration by_pressure = detect_equilibration(series.column("pressure_collision"));
-        const Equilibration by_order = detect_equilibration(series.column("nematic_order"));
-        window.first_row = std::max(by_pressure.start, by_order.start);
+        const std::size_t after_schedule = first_row_after(time, begin, schedule_end(scene));
+        if (after_schedule == time.size() && after_schedule > 0)
+            return {after_schedule, schedule_end(scene), by_schedule(scene)};
+        const auto settled = [&](const char* name) {
+            return detect_equilibration(from_row(series.column(name), after_schedule));
+        };
+        const Equilibration by_pressure = settled("pressure_collision"), by_order = settled("nematic_order");
+        window.first_row = after_schedule + std::max(by_pressure.start, by_order.start);
         window.equilibration_time = window.first_row == 0 ? begin : time[window.first_row - 1];
         found = by_pressure.reached;
     }
     if (scene.growth.rate > 0.0) {
         window.equilibrium.reason = "the number of cells changes";
+        return window;
+    }
+    if (is_ramped(scene, window)) {
+        window.equilibrium = by_schedule(scene);
         return window;
     }
     const bool turn = clocks.rotation > 0.0;

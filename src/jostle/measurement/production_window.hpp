@@ -17,6 +17,9 @@ struct ProductionWindow {
     bool equilibrated() const { return equilibrium.verdict == EquilibriumCheck::Verdict::reached; }
 };
 
+/// Whether a schedule changes something within the window.
+bool is_ramped(const Scene& scene, const ProductionWindow& window);
+
 /// The window of production at the end of the series as it is, or where equilibration has to be found in it. `begin`:
 /// time at which the first row begins.
 ProductionWindow production_window(const Scene& scene, const SeriesTable& series, const FreeClocks& clocks,

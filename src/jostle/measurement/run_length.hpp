@@ -25,6 +25,7 @@ private:
     FreeClocks clocks_;
     bool can_be_long_enough_ = true;  ///< else more time would only end in the same words
     std::size_t production_rows_ = 1;
+    std::size_t rows_of_schedule_ = 0;
     std::size_t fixed_rows_ = 0;   ///< 0: equilibration is detected
     std::size_t rows_before_ = 0;  ///< `begin`
     std::size_t rows_looked_at_ = 0;

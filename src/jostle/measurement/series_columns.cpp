@@ -34,8 +34,7 @@ void add_pressure_columns(const Scene& scene, Series& series) {
     columns.push_back(
         {{"Z", "1", "Z", "compressibility factor Pi/(n kT), mean over the steps since the last row", in_compression},
          [](const RowState& row) {
-             const double kT = row.simulation.settings().kT;
-             return kT > 0.0 ? compressibility(row.stress, row.density, kT) : std::nan("");
+             return row.kT > 0.0 ? compressibility(row.stress, row.density, row.kT) : std::nan("");
          }});
     columns.push_back(
         {{"pressure", stress, "Pi", "Tr Sigma/3 " + parts + ", mean over the steps since the last row", in_compression},
@@ -146,8 +145,9 @@ RowState::RowState(const Simulation& of, const StepSums& since_last_row)
     : simulation(of),
       sums(since_last_row),
       volume(of.box().volume()),
+      kT(sums.kT ? *sums.kT / sums.steps : of.settings().kT),
       density(sums.rods / sums.steps / volume),
-      stress(assembly_stress(density, of.settings().kT, volume,
+      stress(assembly_stress(density, kT, volume,
                              {.collision = (1.0 / sums.steps) * sums.collision_virial,
                               .orientation = sum_of_orientation_stresses(of.rods(), of.settings().kT),
                               .springs = (1.0 / sums.steps) * sums.spring_virial})),

@@ -20,7 +20,8 @@ struct RowState {
 
     const Simulation& simulation;
     const StepSums& sums;
-    double volume;       ///< of the box
+    double volume;       ///< of the box at this step
+    double kT;           ///< mean over the steps
     double density;      ///< rods per volume, mean over the steps: cells may have divided since the last row
     Stress stress;       ///< mean over the steps; the orientation stress at this step
     NematicOrder order;  ///< at this step

@@ -10,6 +10,7 @@
 #include "jostle/motion/self_propulsion.hpp"
 #include "jostle/rods/space_filling_order.hpp"
 #include "jostle/scene/scene_motion.hpp"
+#include "jostle/scene/schedule.hpp"
 #include "jostle/setup/assemble.hpp"
 
 namespace jostle {
@@ -58,8 +59,21 @@ void StepSums::add(const StepReport& report) {
     run_max_overlap = std::max(run_max_overlap, report.max_overlap);
 }
 
+void StepSums::stretch(const StepReport& report, const Box& box) {
+    const Vec3& by = report.stretch;
+    if (by == Vec3{1, 1, 1}) return;
+    const double volume = by.x * by.y * by.z;
+    rods *= volume;
+    for (Mat3* virial : {&collision_virial, &spring_virial, &centre_of_mass_virial, &centre_line_virial})
+        *virial = volume * *virial;
+    if (active_stress) active_stress->stretch(by);
+    if (field) field->fit(box.edges());
+}
+
 void StepSums::add(const StepReport& report, const Simulation& simulation) {
+    stretch(report, simulation.box());
     add(report);
+    if (kT) *kT += simulation.settings().kT;
     if (active_stress) {
         std::vector<ActiveStress::Division> divisions;
         for (const LineageEvent& event : simulation.lineage())
@@ -74,12 +88,14 @@ void StepSums::look_at_swimmers(const Scene& scene, const Simulation& simulation
     const Rods& swimmers = simulation.rods();
     const StepContext context = {scene.seed, simulation.clock().step, simulation.settings().time_step};
     const auto mobility = simulation.mobility().at(swimmers, simulation.box());
-    const std::vector<Vec3> force = SelfPropulsion(swimming_of(scene)).propulsion(swimmers, *mobility, context);
+    const Swimming now = swimming_of(scene_at(scene, simulation.clock().time));
+    const std::vector<Vec3> force = SelfPropulsion(now).propulsion(swimmers, *mobility, context);
     active_virial = active_stress->virial(swimmers, simulation.box(), force);
 }
 
 void StepSums::start_row() {
     StepSums fresh;
+    if (kT) fresh.kT = 0.0;
     fresh.run_max_overlap = run_max_overlap;
     fresh.active_stress = std::move(active_stress);
     fresh.field = std::move(field);
@@ -92,6 +108,7 @@ NamedNumbers StepSums::to_named() const {
         const std::span<const double> values = numbers_of(sum);
         numbers[name].assign(values.begin(), values.end());
     });
+    if (kT) numbers["kT"] = {*kT};
     if (active_stress) add_under("active_stress", numbers, active_stress->to_named());
     if (field) add_under("field", numbers, field->to_named());
     return numbers;
@@ -99,15 +116,16 @@ NamedNumbers StepSums::to_named() const {
 
 StepSums StepSums::from_named(NamedNumbers numbers, const Scene& scene, const Box& box) {
     StepSums sums;
-    for_each_sum(sums, [&](const char* name, auto& sum) {
-        const std::span<double> values = numbers_of(sum);
+    const auto take = [&](const char* name, std::span<double> values) {
         const auto found = numbers.find(name);
         if (found == numbers.end() || found->second.size() != values.size())
             throw InputError({.key = "checkpoint",
                               .problem = std::string("it lacks the sum \"") + name + "\" of a run of this scene",
                               .suggestion = "Start anew with --fresh"});
         std::copy(found->second.begin(), found->second.end(), values.begin());
-    });
+    };
+    for_each_sum(sums, [&](const char* name, auto& sum) { take(name, numbers_of(sum)); });
+    if (!scene.schedule.kT.empty()) take("kT", {&sums.kT.emplace(), 1});
     if (swims(scene)) sums.active_stress = ActiveStress::from_named(taken_under("active_stress", numbers));
     if (scene.output.field_every == 0) return sums;
     NamedNumbers field_so_far = taken_under("field", numbers);
@@ -126,6 +144,7 @@ Checkpoint checkpoint_of(const Simulation& simulation, const StepSums& sums, std
 StepSums first_sums(const Scene& scene, const Simulation& simulation) {
     StepSums sums;
     sums.field = make_field(scene, simulation.box());
+    if (!scene.schedule.kT.empty()) sums.kT = 0.0;
     if (!swims(scene)) return sums;
     const Rods& rods = simulation.rods();
     const double row_time = simulation.settings().time_step * static_cast<double>(scene.output.series_every);

@@ -14,10 +14,14 @@
 namespace jostle {
 
 /// What is added up over the steps of one row of the series, and over the whole run. Goes into every checkpoint.
+///
+/// Where the box changes, sums that a volume divides are those of each step, times the present volume over that of the
+/// step: divided by the present one they are means of stresses and densities.
 struct StepSums {
     // since the last row
     double steps = 0.0;
-    double rods = 0.0;  ///< summed over the steps
+    double rods = 0.0;         ///< summed over the steps
+    std::optional<double> kT;  ///< likewise, where a schedule changes it
     Mat3 collision_virial, spring_virial, centre_of_mass_virial, centre_line_virial;
     double contacts = 0.0;
     double active_contacts = 0.0;
@@ -46,6 +50,7 @@ struct StepSums {
 
 private:
     void add(const StepReport& report);
+    void stretch(const StepReport& report, const Box& box);
 };
 
 /// A checkpoint of the state and the sums; of files it knows nothing yet.

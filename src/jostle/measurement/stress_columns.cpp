@@ -25,14 +25,27 @@ Columns orientation_stress_columns(const SeriesTable& series, std::size_t first)
     return {six[0], six[1], six[2], six[1], six[3], six[4], six[2], six[4], six[5]};
 }
 
+namespace {
+
+/// n kT, also where the number of rods, their temperature or the box changes within a row.
+std::vector<double> kinetic_column(const SeriesTable& series, std::size_t first, bool springs) {
+    std::vector<double> kinetic = from_row(series.column("pressure"), first);
+    add(kinetic, from_row(series.column("pressure_collision"), first), -1.0);
+    if (springs) add(kinetic, from_row(series.column("pressure_springs"), first), -1.0);
+    return kinetic;
+}
+
+}  // namespace
+
+double kinetic_pressure(const SeriesTable& series, std::size_t first, bool springs) {
+    return column_mean(kinetic_column(series, first, springs));
+}
+
 Columns total_stress_columns(const SeriesTable& series, std::size_t first, bool springs) {
     Columns total = window_columns(series, first, stress_column_names);
     Columns parts = orientation_stress_columns(series, first);
-    // n kT, also where the number of rods changes within a row
-    std::vector<double> kinetic = from_row(series.column("pressure"), first);
-    add(kinetic, from_row(series.column("pressure_collision"), first), -1.0);
+    const std::vector<double> kinetic = kinetic_column(series, first, springs);
     if (springs) {
-        add(kinetic, from_row(series.column("pressure_springs"), first), -1.0);
         const Columns of_springs = window_columns(series, first, spring_stress_column_names);
         for (std::size_t k = 0; k < 9; ++k) add(parts[k], of_springs[k], 1.0);
     }

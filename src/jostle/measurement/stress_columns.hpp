@@ -16,4 +16,7 @@ Columns orientation_stress_columns(const SeriesTable& series, std::size_t first)
 /// stress, collision stress, and that of springs where there are some.
 Columns total_stress_columns(const SeriesTable& series, std::size_t first, bool springs);
 
+/// The mean of n kT, from row `first` on.
+double kinetic_pressure(const SeriesTable& series, std::size_t first, bool springs);
+
 }  // namespace jostle

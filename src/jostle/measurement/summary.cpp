@@ -16,6 +16,7 @@
 #include "jostle/run_files/version.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_motion.hpp"
+#include "jostle/scene/schedule.hpp"
 #include "jostle/scene/units.hpp"
 #include "jostle/setup/free_clocks.hpp"
 #include "jostle/stress/column_names.hpp"
@@ -121,7 +122,9 @@ ProductionWindow window_of(const Scene& scene, const Simulation& simulation, con
     if (series.rows() == 0) refuse_to_average("the series has no row yet", "Make more steps");
     ProductionWindow window = production_window(
         scene, series,
-        free_clocks(scene, *simulation.mobility().at(simulation.rods(), simulation.box()), simulation.rods()), begin);
+        free_clocks(scene_at_end(scene), *simulation.mobility().at(simulation.rods(), simulation.box()),
+                    simulation.rods()),
+        begin);
     if (window.first_row >= series.rows())
         refuse_to_average(fmt::format("no row is of production: equilibration takes a time of {:.6g}, and it is {:.6g}",
                                       window.equilibration_time, simulation.clock().time),
@@ -150,7 +153,8 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     summary["volume_fraction"] = without_rounding(total_volume(rods) / simulation.box().volume());
     summary["rods"] = rods.size();
     summary["seed"] = simulation.settings().seed;
-    summary["self_propulsion"] = {{"mean", scene.motion.self_propulsion}, {"unit", unit_of(scene, dimension::speed)}};
+    const double speed = scene_at(scene, simulation.clock().time).motion.self_propulsion;
+    summary["self_propulsion"] = {{"mean", speed}, {"unit", unit_of(scene, dimension::speed)}};
     summary["box"] = box_entry(scene, simulation.box());
     summary["version"] = program_version;
     summary["git"] = program_commit;
@@ -163,10 +167,11 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     summary["stress"] = tensor_entry(stress, stress_unit);
     summary["stress"]["definition"] =
         springs ? "kinetic + orientation + collision + springs" : "kinetic + orientation + collision";
-    summary["stress_kinetic"] = {{"mean", (grows ? average_of("N").mean : static_cast<double>(rods.size())) /
-                                              simulation.box().volume() * simulation.settings().kT},
-                                 {"unit", stress_unit},
-                                 {"definition", "n kT, on the diagonal"}};
+    const bool ramped = is_ramped(scene, window);
+    const double number = grows ? average_of("N").mean : static_cast<double>(rods.size());
+    const double kinetic = ramped ? kinetic_pressure(series, first, springs)
+                                  : number / simulation.box().volume() * simulation.settings().kT;
+    summary["stress_kinetic"] = {{"mean", kinetic}, {"unit", stress_unit}, {"definition", "n kT, on the diagonal"}};
     summary["stress_orientation"] = tensor_entry(orientation_stress_columns(series, first), stress_unit);
     summary["stress_collision"] = tensor_entry(collision, stress_unit);
     if (springs) {
@@ -192,18 +197,21 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     summary["equilibration_time"] = window.equilibration_time;
     summary["equilibrated"] = window.equilibrated();
     summary["equilibrium"] = described(window.equilibrium);
+    if (has_schedule(scene))
+        summary["schedule"] = {
+            {"keys", names_of_schedule(scene)}, {"end", schedule_end(scene)}, {"in_averages", ramped}};
     summary["production_rows"] = series.rows() - std::min(first, series.rows());
     summary["max_overlap"] = run_max_overlap / smallest_diameter(scene, rods);
     Json checks = Json::object();
-    const bool in_equilibrium = simulation.keeps_equilibrium() && !springs;
+    const bool in_equilibrium = simulation.keeps_equilibrium() && !springs && !ramped;
     if (in_equilibrium && simulation.box().is_periodic())
         checks["total_stress_ratio"] = total_stress_ratio_check(stress, order);
     if (in_equilibrium && all_alike(rods))
         checks["collision_stress_ratio"] = collision_stress_ratio_check(
             collision, order, from_row(series.column("Z"), first), rods.length.front() / rods.diameter.front());
     summary["checks"] = checks;
-    const Average number = average_of("N");
-    if (number.standard_deviation > 0.0 && !number.standard_error)
+    const Average count = average_of("N");
+    if (count.standard_deviation > 0.0 && !count.standard_error)
         withhold_errors(summary, "The number of cells changes throughout: averages are of no state that lasts.");
     else if (!window.equilibrated() && !grows)
         withhold_errors(summary, "Equilibrium: " + in_words(window.equilibrium) + ".");

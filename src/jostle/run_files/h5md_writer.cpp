@@ -112,7 +112,7 @@ void write_particles(hid_t file, const std::string& journal_path, const JournalS
         return position.beside(rods, name, H5T_NATIVE_DOUBLE, {t, n, 3, 3}, &none, attributes.energy_unit);
     };
     if (shape.has_stress) collision = of_stress("stress_collision");
-    if (shape.has_stress && attributes.kT > 0.0) orientation = of_stress("stress_orientation");
+    if (shape.has_stress && attributes.kT) orientation = of_stress("stress_orientation");
     if (shape.box_varies) edges = position.beside(box, "edges", H5T_NATIVE_DOUBLE, {t, 3}, nullptr, unit);
 
     TrajectoryReader reader(journal_path);
@@ -126,7 +126,8 @@ void write_particles(hid_t file, const std::string& journal_path, const JournalS
         diameter.write(k, count, frame.diameter.data());
         id.write(k, count, frame.id.data());  // ids count from 0 and stay far below 2^63
         if (collision) collision->write(k, count, frame.stress.data());
-        if (orientation) orientation->write(k, count, orientation_stress_of_rods(frame, attributes.kT).data());
+        if (orientation)
+            orientation->write(k, count, orientation_stress_of_rods(frame, attributes.kT(frame.time)).data());
         if (edges) edges->write(k, 3, &frame.box.edges());
     }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "jostle/run_files/series_file.hpp"
@@ -20,8 +21,8 @@ struct H5mdAttributes {
     std::string length_unit;  ///< factors separated by spaces, signed powers: "um"; empty: no unit is written
     std::string time_unit;
     std::string stress_unit;
-    std::string energy_unit;  ///< of stress times volume
-    double kT = 0.0;          ///< of Brownian motion, in that unit; 0: no orientation stress is written
+    std::string energy_unit;                     ///< of stress times volume
+    std::function<double(double time)> kT = {};  ///< of Brownian motion; empty: no orientation stress is written
 };
 
 /// Makes an H5MD 1.1 file (P. de Buyl et al., Comput. Phys. Commun. 185, 1546 (2014)) from a journal.

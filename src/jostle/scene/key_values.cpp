@@ -38,6 +38,14 @@ std::string in_words(const std::array<bool, 3>& value) {
     return fmt::format("[{}, {}, {}]", value[0], value[1], value[2]);
 }
 
+template <class Value>
+std::string in_words(const Ramp<Value>& ramp) {
+    std::string points;
+    for (const auto& [time, value] : ramp)
+        points += fmt::format("{}[{}, {}]", points.empty() ? "" : ", ", in_words(time), in_words(value));
+    return ramp.empty() ? "none" : "[" + points + "]";
+}
+
 bool is_unused(const std::string& key, const std::vector<UnusedKey>& unused) {
     return std::any_of(unused.begin(), unused.end(), [&](const UnusedKey& entry) { return entry.key == key; });
 }

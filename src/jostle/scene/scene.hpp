@@ -8,6 +8,7 @@
 #include "jostle/contact_problem/solver_method.hpp"
 #include "jostle/growth/growth_law.hpp"
 #include "jostle/math/vec3.hpp"
+#include "jostle/scene/ramp.hpp"
 
 namespace jostle {
 
@@ -77,6 +78,13 @@ struct Scene {
     } motion;
 
     GrowthLaw growth;  // rate 0: none
+
+    struct ScheduleTable {
+        Ramp<double> self_propulsion, kT;  // from motion.self_propulsion, fluid.kT
+        Ramp<Vec3> edges;                  // of the box: either this ...
+        Ramp<double> volume_fraction;      // ... or this, with the shape that the box has
+        bool operator==(const ScheduleTable&) const = default;
+    } schedule;
 
     struct SpringsTable {
         std::string file;  // relative to the scene's folder; empty: no springs

@@ -31,7 +31,7 @@ inline constexpr Dimension energy{1, 0, 1}, stress{-2, 0, 1}, viscosity{-2, 1, 1
 /// What the table below says of a key. `may_change`: a run that goes on may have another value, for it is no part of
 /// the physics, nor of what a row of the series is: it ends the run, or says what else is written and when.
 ///
-/// A number with a dimension, ...
+/// A number with a dimension, or a ramp of such numbers, ...
 struct Quantity {
     Dimension dimension;
     Range range;
@@ -99,6 +99,11 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("growth", "stall_memory", scene.growth.stall_memory, Quantity{dim::time, positive, true});
     visit("growth", "death_rate", scene.growth.death_rate, Quantity{dim::rate, zero_or_positive});
     visit("growth", "division_every", scene.growth.division_every, Count{1, max_steps});
+    visit("schedule", "self_propulsion", scene.schedule.self_propulsion, Quantity{dim::speed, zero_or_positive});
+    visit("schedule", "kT", scene.schedule.kT, Quantity{dim::energy, zero_or_positive});
+    visit("schedule", "edges", scene.schedule.edges, Quantity{dim::length, positive});
+    visit("schedule", "volume_fraction", scene.schedule.volume_fraction,
+          Quantity{dim::none, {Range::smallest, 1.0, false}});
     visit("springs", "file", scene.springs.file, Plain{});
     visit("contact", "model", scene.contact.model, Plain{});
     visit("contact", "energy", scene.contact.energy, Quantity{dim::energy, positive, true});

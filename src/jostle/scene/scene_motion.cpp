@@ -35,7 +35,7 @@ std::vector<std::unique_ptr<Motion>> motions_of(const Scene& scene) {
 }
 
 bool swims(const Scene& scene) {
-    return scene.motion.self_propulsion != 0.0;
+    return scene.motion.self_propulsion != 0.0 || !scene.schedule.self_propulsion.empty();
 }
 
 bool keeps_equilibrium(const Scene& scene) {

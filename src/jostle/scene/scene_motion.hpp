@@ -19,7 +19,7 @@ double thermal_energy(const Scene& scene);
 /// How the rods of a scene swim.
 Swimming swimming_of(const Scene& scene);
 
-/// Whether its rods swim.
+/// Whether its rods swim, now or later.
 bool swims(const Scene& scene);
 
 /// All motions of the scene, in the order in which a step adds them up.

@@ -66,6 +66,19 @@ struct RangeCheck {
     void operator()(const std::optional<std::uint64_t>& value, const Count& count) const {
         if (value) (*this)(*value, count);
     }
+    template <class Value>
+    void operator()(const Ramp<Value>& ramp, const Quantity& quantity) const {
+        double last = 0.0;
+        for (const auto& [time, value] : ramp) {
+            if (!(time > last) || !(time <= Range::largest))
+                refuse(key, text(time),
+                       last == 0.0 ? "is no time after 0, at which a ramp begins with the value of the scene"
+                                   : fmt::format("is no later than the time of the point before, {}", last),
+                       "times that increase", "Write the points [time, value] in the order of their times");
+            (*this)(value, quantity);
+            last = time;
+        }
+    }
     template <class Member>
     void operator()(const Member&, const Plain&) const {}
 };

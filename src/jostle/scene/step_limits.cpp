@@ -12,7 +12,9 @@
 #include "jostle/error/refuse.hpp"
 #include "jostle/scene/number_text.hpp"
 #include "jostle/scene/rod_size.hpp"
+#include "jostle/scene/scene_box.hpp"
 #include "jostle/scene/scene_motion.hpp"
+#include "jostle/scene/schedule.hpp"
 
 namespace jostle {
 
@@ -28,6 +30,8 @@ constexpr double advised_lateness = 0.2, latest_division = 0.25;
 constexpr double automatic_relaxation = 0.05, advised_relaxation = 0.1, largest_relaxation = 1.0;
 /// Of the overlap of rods that meet with `high_energy`.
 constexpr double automatic_throw = 1.0, advised_throw = 1.5, largest_throw = 2.0;
+/// In D, by which rods that touch are brought nearer: as what cells lengthen by, it is a gap that contacts open again.
+constexpr double automatic_squeeze = 0.01, advised_squeeze = 0.03, largest_squeeze = 0.1;
 /// In kT: the energy with which one pair in 150 meets.
 constexpr double high_energy = 5.0;
 /// Of the angle by which its own images let a rod be inclined.
@@ -40,14 +44,15 @@ void append(std::vector<StepLimit>& limits, std::vector<StepLimit> more) {
 std::vector<StepLimit> motion_limits(const Scene& scene, const Mobility& model, const Box& box, const Rods& rods) {
     std::vector<StepLimit> limits;
     const auto mobility = model.at(rods, box);
-    for (const auto& motion : motions_of(scene)) append(limits, motion->step_limits(rods, *mobility, scene.seed));
+    for (const auto& motion : motions_of(scene_at_its_hardest(scene)))
+        append(limits, motion->step_limits(rods, *mobility, scene.seed));
     return limits;
 }
 
 /// The shortest and the longest of the cells that are to come, as fast as they get.
 Rods cells_to_come(const Scene& scene, double diameter) {
-    const double fastest =
-        std::fabs(scene.motion.self_propulsion) + deviations_of_the_fastest * scene.motion.self_propulsion_deviation;
+    const double fastest = std::fabs(scene_at_its_hardest(scene).motion.self_propulsion) +
+                           deviations_of_the_fastest * scene.motion.self_propulsion_deviation;
     Rods cells;
     cells.push_back(0, {}, {1, 0, 0}, std::max(0.0, 0.5 * (scene.growth.division_length - diameter)), diameter);
     cells.push_back(1, {}, {1, 0, 0}, scene.growth.division_length, diameter);
@@ -119,6 +124,41 @@ std::vector<StepLimit> image_limits(const Scene& scene, const Box& box, const Ro
     return {limit};
 }
 
+/// How fast the box brings rods together that touch, end to end, as its schedule has it at the fastest.
+std::vector<StepLimit> squeeze_limits(const Scene& scene, const Rods& rods) {
+    const double volume = volume_of_all(scene, rods);
+    RampPoint<Vec3> from{0.0, box_edges(scene, volume)};
+    double strain_rate = 0.0, slenderest = 0.0;
+    for (const RampPoint<Vec3>& to : ramp_of_edges(scene, volume)) {
+        for (int k = 0; k < 3; ++k)
+            strain_rate = std::max(strain_rate, (from.value[k] - to.value[k]) / (to.time - from.time) / to.value[k]);
+        from = to;
+    }
+    for (std::size_t i = 0; i < rods.size(); ++i)
+        slenderest = std::max(slenderest, (rods.length[i] + rods.diameter[i]) / rods.diameter[i]);
+    if (strain_rate == 0.0) return {};
+    return {{.key = key_of_box_ramp(scene),
+             .value = "",
+             .harm = "closes gaps so far that contacts cannot follow",
+             .what = "the box brings rods that touch nearer by",
+             .unit = "D",
+             .remedy = "a slower ramp",
+             .rate = strain_rate * slenderest,
+             .automatic = automatic_squeeze,
+             .advised = advised_squeeze,
+             .largest = largest_squeeze}};
+}
+
+/// The narrowest that a schedule makes the box, edge by edge.
+Box narrowest(const Scene& scene, const Box& box, const Rods& rods) {
+    if (!squeezes_box(scene)) return box;
+    const double volume = volume_of_all(scene, rods);
+    Vec3 edges = box_edges(scene, volume);
+    for (const RampPoint<Vec3>& point : ramp_of_edges(scene, volume))
+        for (int k = 0; k < 3; ++k) edges[k] = std::min(edges[k], point.value[k]);
+    return {edges, box.periodic()};
+}
+
 /// Thinner than any cell is but for one in a thousand; a function of the scene alone.
 double lasting_diameter(const Scene& scene) {
     if (rods_are_given(scene)) return scene.rods.diameter;
@@ -181,9 +221,11 @@ std::vector<StepLimit> free_step_limits(const Scene& scene, const Mobility& mode
 std::vector<StepLimit> step_limits(const Scene& scene, const Mobility& model, const Box& box, const Rods& rods,
                                    std::span<const Spring> springs) {
     const auto mobility = model.at(rods, box);
+    const Scene hardest = scene_at_its_hardest(scene);
     std::vector<StepLimit> limits = free_step_limits(scene, model, box, rods);
-    append(limits, image_limits(scene, box, rods, *mobility));
-    if (scene.contact.model == ContactModel::wca) limits.push_back(potential_limit(scene, rods, *mobility));
+    append(limits, image_limits(hardest, narrowest(scene, box, rods), rods, *mobility));
+    if (squeezes_box(scene)) append(limits, squeeze_limits(scene, rods));
+    if (scene.contact.model == ContactModel::wca) limits.push_back(potential_limit(hardest, rods, *mobility));
     if (!springs.empty()) limits.push_back(spring_limit(scene, springs, rods, *mobility));
     return limits;
 }
@@ -194,8 +236,9 @@ std::vector<StepLimit> lasting_step_limits(const Scene& scene, const Mobility& m
     const auto mobility = model.at(cells, box);
     std::vector<StepLimit> limits = motion_limits(scene, model, box, cells);
     append(limits, growth_limits(scene, diameter));
-    append(limits, image_limits(scene, box, cells, *mobility));
-    if (scene.contact.model == ContactModel::wca) limits.push_back(potential_limit(scene, cells, *mobility));
+    const Scene hardest = scene_at_its_hardest(scene);
+    append(limits, image_limits(hardest, box, cells, *mobility));
+    if (scene.contact.model == ContactModel::wca) limits.push_back(potential_limit(hardest, cells, *mobility));
     return limits;
 }
 

@@ -15,7 +15,8 @@ namespace jostle {
 
 /// All limits for these rods: of each motion of the scene, of growth, springs, a soft potential, and of rods that meet
 /// their own periodic images. `springs`: of the file that the scene names; where `rods` holds one rod for all alike,
-/// their ids need not be its. With growth, cells that are yet to come count, too.
+/// their ids need not be its. With growth, cells that are yet to come count, too; with a schedule, the largest values
+/// that it has, and the narrowest box.
 std::vector<StepLimit> step_limits(const Scene& scene, const Mobility& model, const Box& box, const Rods& rods,
                                    std::span<const Spring> springs = {});
 

@@ -10,6 +10,7 @@
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_keys.hpp"
 #include "jostle/scene/scene_motion.hpp"
+#include "jostle/scene/schedule.hpp"
 #include "jostle/scene/step_limits.hpp"
 
 namespace jostle {
@@ -39,7 +40,8 @@ double time_step(const Scene& scene, const Mobility& model, const Box& box, cons
     if (scene.time.step) return *scene.time.step;
     if (scene.time.rms_step) {
         const double length = *scene.time.rms_step * smallest_diameter(scene, rods);
-        return length * length / (2.0 * fastest_diffusion(thermal_energy(scene), *model.at(rods, box), rods.size()));
+        const double kT = thermal_energy(scene_at_its_hardest(scene));
+        return length * length / (2.0 * fastest_diffusion(kT, *model.at(rods, box), rods.size()));
     }
     return automatic_step(scene.growth.rate > 0.0 ? lasting_step_limits(scene, model, box)
                                                   : step_limits(scene, model, box, rods, springs));

@@ -53,6 +53,8 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
     else if (!scene.growth.stall_force)
         unused.push_back({"growth.stall_memory", "is not used without growth.stall_force: nothing stalls",
                           "Set stall_force, or remove stall_memory"});
+    if (!scene.motion.brownian)
+        unused.push_back({"schedule.kT", "is not used with motion.brownian = false", "Remove one of the two"});
     if (scene.output.trajectory_every == 0)
         for (const char* key : {"output.stress_per_rod", "output.trajectory_times"})
             unused.push_back({key, "is not used with output.trajectory_every = 0: there are no frames",

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <vector>
 
 #include "jostle/error/refuse.hpp"
 #include "jostle/motion/tumbles.hpp"
@@ -15,6 +17,7 @@
 #include "jostle/scene/scene_mobility.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/scene_ranges.hpp"
+#include "jostle/scene/schedule.hpp"
 #include "jostle/scene/step_limits.hpp"
 #include "jostle/scene/time_step.hpp"
 #include "jostle/scene/unused_keys.hpp"
@@ -87,11 +90,53 @@ void check_packing(const Scene& scene) {
                "Use start = \"aligned\" or \"lattice\", or a lower volume fraction");
 }
 
+/// Of all that a schedule makes of the box.
+void check_packing_of_schedule(const Scene& scene) {
+    if (!squeezes_box(scene)) return;
+    const double volume = rods_volume(scene), aspect_ratio = scene.rods.length / scene.rods.diameter;
+    const double densest = close_packing(aspect_ratio);
+    for (const auto& [time, edges] : ramp_of_edges(scene, volume)) {
+        const double fraction = volume / (edges.x * edges.y * edges.z);
+        if (fraction <= densest * (1.0 + 1e-12)) continue;
+        refuse(
+            key_of_box_ramp(scene), "",
+            fmt::format("cannot be packed at time {}: it makes the volume fraction {}, and the densest packing of rods "
+                        "of L/D = {} fills {}",
+                        time, rounded(fraction), rounded(aspect_ratio), rounded(densest)),
+            fmt::format("a volume fraction of at most {}", rounded(densest)), "Compress less");
+    }
+}
+
 /// Whether the rods of the scene have room in its box.
 void check_room(const Scene& scene) {
     check_deviations(scene);
     check_packing(scene);
     validate_box(scene, rods_volume(scene), largest_diameter(scene));
+    check_packing_of_schedule(scene);
+}
+
+/// Whether a schedule of the box changes an edge, as far as the scene tells.
+bool squeezes_edge(const Scene& scene, int k) {
+    if (scene.schedule.edges.empty() || !scene.box.edges) return true;
+    return std::any_of(scene.schedule.edges.begin(), scene.schedule.edges.end(),
+                       [&](const RampPoint<Vec3>& point) { return point.value[k] != (*scene.box.edges)[k]; });
+}
+
+void check_schedule(const Scene& scene) {
+    if (!squeezes_box(scene)) return;
+    if (!scene.schedule.edges.empty() && !scene.schedule.volume_fraction.empty())
+        refuse("schedule.edges", "", "is given beside schedule.volume_fraction", "one of the two, not both",
+               "Keep one of them; the other follows from it");
+    const std::string key = key_of_box_ramp(scene);
+    if (scene.growth.rate > 0.0)
+        refuse(key, "", "changes the box, and with growth.rate cells change what fills it", "one of the two, not both",
+               "Remove [growth], or the key");
+    for (std::size_t k = 0; k < 3; ++k)
+        if (!scene.box.periodic[k] && squeezes_edge(scene, static_cast<int>(k)))
+            refuse(key, "",
+                   fmt::format("changes edge {}, along which the box is open: nothing holds the rods", "xyz"[k]),
+                   "edges along which the box is periodic",
+                   "Keep that edge as box.edges has it, or make the box periodic along it");
 }
 
 void check_motion(const Scene& scene) {
@@ -152,7 +197,7 @@ void check_solver(const Scene& scene) {
 void check_rms_step(const Scene& scene) {
     if (!scene.time.rms_step) return;
     const char* reason = !scene.motion.brownian ? "motion.brownian = false" : "fluid.kT = 0";
-    if (!scene.motion.brownian || scene.fluid.kT == 0.0)
+    if (thermal_energy(scene_at_its_hardest(scene)) == 0.0)
         refuse("time.rms_step", text(*scene.time.rms_step),
                fmt::format("measures the step by the Brownian motion, and there is none: {}", reason), "",
                "Give time.step instead");
@@ -167,13 +212,29 @@ void check_time(const Scene& scene) {
         refuse("time.rms_step", text(*scene.time.rms_step),
                fmt::format("is given beside time.step = {}", *scene.time.step), "one of the two, not both",
                "Keep one of them");
-    const bool moves =
-        thermal_energy(scene) > 0.0 || swims(scene) || scene.growth.rate > 0.0 || !scene.springs.file.empty();
+    const bool moves = thermal_energy(scene_at_its_hardest(scene)) > 0.0 || swims(scene) || squeezes_box(scene) ||
+                       scene.growth.rate > 0.0 || !scene.springs.file.empty();
     if (!scene.time.step && !scene.time.rms_step && !moves)
         refuse("time.step", "", "is missing, and nothing in the scene moves that a step could be found from",
                "a time, greater than 0", "Add step = 1e-3 under [time]");
     check_rms_step(scene);
     if (scene.time.step) require_countable_steps(scene, *scene.time.step);
+}
+
+/// Whether rods of this volume and diameter can be in a box at all.
+void require_room(const std::string& key, const std::string& value, const Vec3& edges, double rods_volume,
+                  double largest_diameter, const char* remedy) {
+    for (int k = 0; k < 3; ++k) {
+        if (edges[k] >= largest_diameter) continue;
+        refuse(key, value,
+               fmt::format("makes the box thinner than a rod's diameter: edge {} is {}", "xyz"[k], rounded(edges[k])),
+               fmt::format("edges of at least {}", largest_diameter), remedy);
+    }
+    const double fraction = rods_volume / (edges.x * edges.y * edges.z);
+    if (!(fraction < 1.0))
+        refuse(key, value,
+               fmt::format("leaves the rods no room: their volume is {} times that of the box", rounded(fraction)),
+               "a volume fraction less than 1", "Enlarge the box or use fewer rods");
 }
 
 /// Of a scene that is sound otherwise.
@@ -185,45 +246,72 @@ void check_step(const Scene& scene) {
     require_short_step(free_step_limits(scene, *make_mobility(scene), box, one), *scene.time.step);
 }
 
+void check_growth(const Scene& scene) {
+    validate_growth(scene, largest_diameter(scene));
+}
+
+void check_contact_range(const Scene& scene) {
+    if (!rods_are_given(scene)) validate_contact_range(scene, largest_length(scene) + largest_diameter(scene));
+}
+
+void check_box(const Scene& scene) {
+    if (scene.box.volume_fraction.has_value() != scene.box.edges.has_value() && !rods_are_given(scene))
+        check_room(scene);
+}
+
+/// A check of how keys go together, and the tables whose keys it looks at.
+struct TogetherCheck {
+    void (*check)(const Scene&);
+    std::vector<std::string_view> tables;
+};
+
+const std::vector<TogetherCheck>& together_checks() {
+    static const std::vector<TogetherCheck> checks = {
+        {check_start, {"rods"}},
+        {check_box_given_once, {"box"}},
+        {check_box, {"box", "rods", "schedule"}},
+        {check_motion, {"motion", "schedule"}},
+        {check_mobility, {"mobility", "rods"}},
+        {check_schedule, {"schedule", "box", "growth"}},
+        {check_springs, {"springs", "growth"}},
+        {check_solver, {"contact", "solver", "fluid"}},
+        {check_time, {"time", "motion", "fluid", "growth", "springs", "schedule"}},
+        {check_growth, {"growth", "rods", "mobility"}},
+        {check_contact_range, {"contact", "rods", "growth"}}};
+    return checks;
+}
+
 }  // namespace
 
 void validate(const Scene& scene) {
-    Mistakes alone;  // of the keys by themselves: only once these are sound it can be said how they go together
+    Mistakes alone;  // of the keys by themselves: only of sound ones it can be said how they go together
     alone.look([&] { refuse_unused_keys(scene); });
     alone.look([&] { require_ranges(scene); });
     alone.refuse_any();
-    Mistakes together;
-    together.look([&] { check_start(scene); });
-    together.look([&] {
-        check_box_given_once(scene);
-        if (!rods_are_given(scene)) check_room(scene);
-    });
-    for (const auto check : {check_motion, check_mobility, check_springs, check_solver, check_time})
-        together.look([&] { check(scene); });
-    together.look([&] { validate_growth(scene, largest_diameter(scene)); });
-    if (!rods_are_given(scene))
-        together.look([&] { validate_contact_range(scene, largest_length(scene) + largest_diameter(scene)); });
-    together.refuse_any();
+    require_fit_together(scene, {});
     check_step(scene);
+}
+
+void require_fit_together(const Scene& scene, std::span<const std::string> unsound) {
+    Mistakes mistakes;
+    const auto is_sound = [&](std::string_view table) {
+        return std::find(unsound.begin(), unsound.end(), table) == unsound.end();
+    };
+    for (const auto& [check, tables] : together_checks())
+        if (std::all_of(tables.begin(), tables.end(), is_sound)) mistakes.look([&] { check(scene); });
+    mistakes.refuse_any();
 }
 
 void validate_box(const Scene& scene, double rods_volume, double largest_diameter) {
     const Vec3 edges = box_edges(scene, rods_volume);
     const bool given = scene.box.edges.has_value();
-    const std::string key = given ? "box.edges" : "box.volume_fraction";
-    const std::string value = given ? text(edges) : text(*scene.box.volume_fraction);
-    for (int k = 0; k < 3; ++k) {
-        if (edges[k] >= largest_diameter) continue;
-        refuse(key, value,
-               fmt::format("makes the box thinner than a rod's diameter: edge {} is {}", "xyz"[k], rounded(edges[k])),
-               fmt::format("edges of at least {}", largest_diameter),
-               given ? "Enlarge that edge" : "Use more rods, a lower volume fraction or a box.shape nearer to a cube");
-    }
-    const double fraction = volume_fraction(scene, rods_volume);
-    if (!(fraction < 1.0))
-        refuse(key, value,
-               fmt::format("leaves the rods no room: their volume is {} times that of the box", rounded(fraction)),
-               "a volume fraction less than 1", "Enlarge the box or use fewer rods");
+    require_room(
+        given ? "box.edges" : "box.volume_fraction", given ? text(edges) : text(*scene.box.volume_fraction), edges,
+        rods_volume, largest_diameter,
+        given ? "Enlarge that edge" : "Use more rods, a lower volume fraction or a box.shape nearer to a cube");
+    for (const auto& [time, squeezed] : ramp_of_edges(scene, rods_volume))
+        require_room(key_of_box_ramp(scene), fmt::format("[{}, {}]", time, text(squeezed)), squeezed, rods_volume,
+                     largest_diameter, "Compress less, or use more rods");
 }
 
 void validate_contact_range(const Scene& scene, double longest) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <string>
+
 #include "jostle/scene/scene.hpp"
 
 namespace jostle {
@@ -12,6 +15,10 @@ namespace jostle {
 /// with key "table.name", value, allowed range and suggestion, and no place: of all keys that are wrong by themselves,
 /// else of all that do not go together.
 void validate(const Scene& scene);
+
+/// Its second part: whether keys go together, as far as no table that has to do with it is `unsound`. Errors:
+/// InputError of all that do not.
+void require_fit_together(const Scene& scene, std::span<const std::string> unsound_tables);
 
 /// Whether rods of `rods_volume` in all, none thicker than `largest_diameter`, can be in the box of the scene at all.
 ///

@@ -108,6 +108,21 @@ const toml::array& KeyReader::three(const toml::node& node, const std::string& e
     return values;
 }
 
+/// Time and value of each point of a ramp.
+std::vector<std::pair<const toml::node*, const toml::node*>> KeyReader::points(const toml::node& node,
+                                                                               bool of_vectors) const {
+    const std::string example = of_vectors ? "[[50.0, [12.0, 12.0, 12.0]]]" : "[[50.0, 0.2], [80.0, 0.2]]";
+    if (!node.is_array() || node.as_array()->empty()) refuse_type(node, "points [time, value], as " + example);
+    std::vector<std::pair<const toml::node*, const toml::node*>> points;
+    for (const toml::node& point : *node.as_array()) {
+        const toml::array* pair = point.as_array();
+        if (!pair || pair->size() != 2)
+            refuse(point, "is no point of a ramp", "[time, value]", "Write the points as " + example);
+        points.emplace_back(pair->get(0), pair->get(1));
+    }
+    return points;
+}
+
 std::string KeyReader::allowed(const Quantity& quantity) const {
     std::string text = "a number";
     const bool micro = units_ == UnitSystem::micro;

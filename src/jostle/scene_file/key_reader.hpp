@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "jostle/scene/scene_keys.hpp"
@@ -31,6 +32,15 @@ public:
     void read(const toml::node& node, double& member, const Quantity& quantity) const;
     void read(const toml::node& node, Vec3& member, const Quantity& quantity) const;
 
+    template <class Value>
+    void read(const toml::node& node, Ramp<Value>& member, const Quantity& quantity) const {
+        member.clear();
+        for (const auto& [time, value] : points(node, std::is_same_v<Value, Vec3>)) {
+            read(*time, member.emplace_back().time, Quantity{dimension::time, positive});
+            read(*value, member.back().value, quantity);
+        }
+    }
+
     template <class Choice>
     requires std::is_enum_v<Choice>
     void read(const toml::node& node, Choice& member, const Plain&) const {
@@ -54,6 +64,7 @@ private:
     [[noreturn]] void refuse_type(const toml::node& node, const std::string& expected) const;
     std::string word(const toml::node& node, const std::vector<std::string>& all) const;
     const toml::array& three(const toml::node& node, const std::string& example) const;
+    std::vector<std::pair<const toml::node*, const toml::node*>> points(const toml::node& node, bool of_vectors) const;
     std::string allowed(const Quantity& quantity) const;
     double with_unit(const toml::node& node, const Quantity& quantity) const;
 

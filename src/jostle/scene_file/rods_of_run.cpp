@@ -81,7 +81,8 @@ Rods rods_of_frame(const TrajectoryFrame& frame, const Rods& last) {
 
 /// Whether swimmers of the scene swim as those of the run do.
 bool swims_alike(const Scene& scene, const Scene& there) {
-    return scene.motion.self_propulsion == there.motion.self_propulsion &&
+    return scene.schedule.self_propulsion.empty() && there.schedule.self_propulsion.empty() &&
+           scene.motion.self_propulsion == there.motion.self_propulsion &&
            scene.motion.self_propulsion_deviation == there.motion.self_propulsion_deviation;
 }
 

@@ -91,6 +91,7 @@ namespace {
 
 /// Refuses rods that the scene does not fit, whoever gives them; `giver` in messages.
 void require_fit(const Scene& scene, const Rods& rods, const std::string& giver) {
+    require_drawn_speeds(scene, rods);
     if (scene.rods.count != 0 && scene.rods.count != rods.size())
         throw InputError({.key = "rods.count",
                           .value = std::to_string(scene.rods.count),

@@ -104,6 +104,24 @@ void find_out_of_range(const TomlDocument& document, const Scene& scene, Mistake
     }
 }
 
+/// What does not go together, or lacks one of several keys, of tables without a mistake; nothing where a mistake is of
+/// no table: what it stands for is not known.
+void find_misfits(const TomlDocument& document, const Scene& scene, Mistakes& missing, Mistakes& mistakes) {
+    std::vector<std::string> unsound;
+    for (const Mistakes* found : {&std::as_const(mistakes), &std::as_const(missing)})
+        for (const InputError& error : found->found()) unsound.emplace_back(parts_of_key(error.parts().key).first);
+    const bool known = std::none_of(unsound.begin(), unsound.end(),
+                                    [](const std::string& table) { return table.empty() || table == "units"; });
+    if (!known || unsound.empty()) return;
+    Mistakes misfits;
+    misfits.look([&] { require_fit_together(scene, unsound); });
+    for (const InputError& error : misfits.found()) {
+        const auto [table, name] = parts_of_key(error.parts().key);
+        if (is_explained(mistakes, std::string(table), std::string(name))) continue;
+        (document.find(table, name) ? mistakes : missing).add(with_place(document, error));
+    }
+}
+
 [[noreturn]] void refuse_file(const std::filesystem::path& path, std::string problem, std::string suggestion) {
     throw InputError({"scene", "", std::move(problem), "a TOML file", std::move(suggestion), {path.string(), 0, 0}});
 }
@@ -171,9 +189,10 @@ Scene parse_scene(std::string_view text, std::string file_name) {
     Scene scene;
     read_keys(document, scene, mistakes);
     const bool read = mistakes.empty();
-    const Mistakes missing = find_missing(document, scene, mistakes);
+    Mistakes missing = find_missing(document, scene, mistakes);
     if (read) find_unused(document, scene, mistakes);
     find_out_of_range(document, scene, mistakes);
+    find_misfits(document, scene, missing, mistakes);
     mistakes.sort_by_place();
     for (const InputError& error : missing.found()) mistakes.add(error);
     mistakes.refuse_any();

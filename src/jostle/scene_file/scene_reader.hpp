@@ -28,7 +28,7 @@ InputError in_scene_file(const std::filesystem::path& path, const InputError& er
 /// kT and the diameter must be given: 1 is a natural default in reduced units only. A table [sweep] is for `jostle
 /// sweep`, and not looked at.
 /// Throws InputError for unknown, missing, repeated and unused keys, wrong types and whatever `validate` refuses: for
-/// all keys that are wrong by themselves at once, and where there are none for all that do not go together.
+/// all keys that are wrong by themselves, and all that do not go together in tables without such a key, at once.
 Scene parse_scene(std::string_view text, std::string file_name);
 
 /// Whether a scene has a table [sweep].

@@ -33,11 +33,14 @@ bool is_toml_value(const std::string& text) {
 }
 
 /// Keys of which a scene has one or the other.
-constexpr std::pair<std::string_view, std::string_view> alternatives[] = {{"box.volume_fraction", "box.edges"},
-                                                                          {"box.edges", "box.volume_fraction"},
-                                                                          {"box.edges", "box.shape"},
-                                                                          {"time.step", "time.rms_step"},
-                                                                          {"time.rms_step", "time.step"}};
+constexpr std::pair<std::string_view, std::string_view> alternatives[] = {
+    {"box.volume_fraction", "box.edges"},
+    {"box.edges", "box.volume_fraction"},
+    {"box.edges", "box.shape"},
+    {"schedule.edges", "schedule.volume_fraction"},
+    {"schedule.volume_fraction", "schedule.edges"},
+    {"time.step", "time.rms_step"},
+    {"time.rms_step", "time.step"}};
 
 bool sets(const std::vector<Setting>& settings, std::string_view key) {
     return std::any_of(settings.begin(), settings.end(), [&](const Setting& setting) { return setting.key == key; });

@@ -54,12 +54,27 @@ std::string written(const std::optional<Number>& value) {
     return value ? written(*value) : "";
 }
 
-std::string unit_comment(const Scene& scene, const Quantity& quantity) {
+/// Empty: the key is left out.
+template <class Value>
+std::string written(const Ramp<Value>& ramp) {
+    std::string points;
+    for (const auto& [time, value] : ramp)
+        points += fmt::format("{}[{}, {}]", points.empty() ? "" : ", ", written(time), written(value));
+    return points.empty() ? "" : "[" + points + "]";
+}
+
+template <class Member>
+std::string unit_comment(const Scene& scene, const Member&, const Quantity& quantity) {
     const std::string unit = readable_unit_of(scene, quantity.dimension);
     return unit.empty() ? "" : "  # " + unit;
 }
-template <class Other>
-std::string unit_comment(const Scene&, const Other&) {
+template <class Value>
+std::string unit_comment(const Scene& scene, const Ramp<Value>&, const Quantity& quantity) {
+    const std::string unit = readable_unit_of(scene, quantity.dimension);
+    return fmt::format("  # {}{}{}", readable_unit_of(scene, dimension::time), unit.empty() ? "" : ", ", unit);
+}
+template <class Member, class Other>
+std::string unit_comment(const Scene&, const Member&, const Other&) {
     return "";
 }
 
@@ -84,7 +99,7 @@ std::string to_toml(const Scene& scene) {
             heading = table;
             text += fmt::format("\n[{}]\n", table);
         }
-        text += fmt::format("{} = {}{}\n", name, value, unit_comment(scene, spec));
+        text += fmt::format("{} = {}{}\n", name, value, unit_comment(scene, member, spec));
     });
     return text;
 }

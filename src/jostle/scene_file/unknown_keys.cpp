@@ -119,6 +119,8 @@ std::string suggestion_by_meaning(std::string_view name) {
 
 /// What to do about a key that no table, or another one, has.
 std::string suggestion_for(std::string_view name, const std::string& table, const KeysOfTables& known) {
+    if (const std::string* other = table == "schedule" ? table_with(name, table, known) : nullptr)
+        return fmt::format("{}.{} cannot be ramped", *other, name);
     if (const std::string meant = suggestion_by_meaning(name); !meant.empty()) return meant;
     const std::string* other = table_with(name, table, known);
     if (!other) return nearest_key(name, table, known);

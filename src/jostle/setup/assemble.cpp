@@ -5,7 +5,9 @@
 #include "jostle/error/input_error.hpp"
 #include "jostle/mobility/drag.hpp"
 #include "jostle/scene/rod_size.hpp"
+#include "jostle/scene/scene_box.hpp"
 #include "jostle/scene/scene_motion.hpp"
+#include "jostle/scene/schedule.hpp"
 #include "jostle/scene/step_limits.hpp"
 #include "jostle/scene/time_step.hpp"
 
@@ -20,6 +22,30 @@ bool noise_is_weak(const Scene& scene, double time_step) {
     return std::sqrt(2.0 * thermal_energy(scene) * sphere.parallel * time_step) <= scene.growth.rate * time_step;
 }
 
+/// The scene as it is in one step.
+Scene scene_of_step(const Scene& scene, std::uint64_t step, double time_step) {
+    return scene_during(scene, static_cast<double>(step) * time_step, static_cast<double>(step + 1) * time_step);
+}
+
+/// What the schedule of a scene sets.
+Schedule schedule_of(const Scene& scene, const Rods& rods, double time_step) {
+    if (!has_schedule(scene)) return {};
+    std::optional<Vec3> first;
+    if (squeezes_box(scene)) first = box_edges(scene, total_volume(rods));
+    return [scene, time_step, first, ramp = ramp_of_edges(scene, total_volume(rods))](const Clock& clock) {
+        const Scene now = scene_of_step(scene, clock.step, time_step);
+        Conditions conditions{thermal_energy(now), motions_of(now), std::nullopt};
+        if (first) conditions.edges = value_at(*first, ramp, static_cast<double>(clock.step + 1) * time_step);
+        return conditions;
+    };
+}
+
+/// kT of the last step that was made, or of the first.
+double present_kT(const Scene& scene, const Clock& clock, double time_step) {
+    const std::uint64_t last = clock.step > 0 ? clock.step - 1 : 0;
+    return thermal_energy(has_schedule(scene) ? scene_of_step(scene, last, time_step) : scene);
+}
+
 }  // namespace
 
 std::optional<StressField> make_field(const Scene& scene, const Box& box) {
@@ -28,12 +54,21 @@ std::optional<StressField> make_field(const Scene& scene, const Box& box) {
     return StressField(box, scene.output.field_spacing.value_or(longest + scene.rods.diameter));
 }
 
+void require_drawn_speeds(const Scene& scene, const Rods& rods) {
+    if (rods.speed.empty() || scene.schedule.self_propulsion.empty()) return;
+    throw InputError(
+        {.key = "schedule.self_propulsion",
+         .problem = "changes the mean speed, and the rods have speeds of their own, as a column speed gives them",
+         .suggestion = "Remove the key, or the column speed"});
+}
+
 Simulation assemble(const Scene& scene, State state) {
     if (state.springs.empty() && !scene.springs.file.empty())
         throw InputError({.key = "springs.file", .value = scene.springs.file, .problem = "the springs were not read"});
     auto model = make_mobility(scene);
     const Box& box = state.box;
     const Rods& rods = state.rods;
+    require_drawn_speeds(scene, rods);
     const std::vector<Spring>& springs = state.springs;
     const double step = time_step(scene, *model, box, rods, springs);
     require_short_step(growth_limits(scene, smallest_diameter(scene, rods)), step);
@@ -43,8 +78,9 @@ Simulation assemble(const Scene& scene, State state) {
     }
     SimulationSettings settings;
     settings.seed = scene.seed;
-    settings.kT = thermal_energy(scene);
+    settings.kT = present_kT(scene, state.clock, step);
     settings.time_step = step;
+    settings.schedule = schedule_of(scene, rods, step);
     settings.brownian_correction = scene.contact.brownian_correction;
     settings.range = scene.contact.range.value_or(0.0);
     if (scene.contact.model == ContactModel::wca) {

@@ -1,6 +1,7 @@
 #include "jostle/simulation/simulation.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/motion/springs.hpp"
@@ -10,7 +11,11 @@ namespace jostle {
 
 Simulation::Simulation(State state, std::unique_ptr<Mobility> mobility, std::vector<std::unique_ptr<Motion>> motions,
                        const SimulationSettings& settings)
-    : state_(std::move(state)), mobility_(std::move(mobility)), motions_(std::move(motions)), settings_(settings) {
+    : state_(std::move(state)),
+      mobility_(std::move(mobility)),
+      motions_(std::move(motions)),
+      scheduled_motions_(motions_.size()),
+      settings_(settings) {
     if (!(settings_.time_step > 0.0))
         throw InputError({.key = "time.step",
                           .value = std::to_string(settings_.time_step),
@@ -34,6 +39,21 @@ bool Simulation::keeps_equilibrium() const {
 void Simulation::reorder(std::span<const std::uint32_t> order) {
     rows_change();
     state_.rods = reordered(state_.rods, order);
+}
+
+/// Takes over what the schedule has in this step. Returns the edges of the box at its end, if it changes.
+std::optional<Vec3> Simulation::follow_schedule() {
+    if (!settings_.schedule) return std::nullopt;
+    Conditions now = settings_.schedule(state_.clock);
+    sizes_changed_ = sizes_changed_ || now.kT != settings_.kT;
+    settings_.kT = now.kT;
+    const auto begin = motions_.begin();
+    motions_.erase(begin, begin + static_cast<std::ptrdiff_t>(scheduled_motions_));
+    scheduled_motions_ = now.motions.size();
+    motions_.insert(motions_.begin(), std::make_move_iterator(now.motions.begin()),
+                    std::make_move_iterator(now.motions.end()));
+    if (now.edges && *now.edges == state_.box.edges()) return std::nullopt;
+    return now.edges;
 }
 
 /// Now and then: rods near each other in space come near each other in memory.

@@ -63,6 +63,7 @@ public:
     const std::vector<std::uint64_t>& contact_ids() const { return ids_before_.empty() ? state_.rods.id : ids_before_; }
 
 private:
+    std::optional<Vec3> follow_schedule();
     void renumber();
     void rows_change();
     ContactProblem posed_problem(const MobilityOperator& mobility, Contacts found) const;
@@ -79,6 +80,7 @@ private:
     State state_;
     std::unique_ptr<Mobility> mobility_;
     std::vector<std::unique_ptr<Motion>> motions_;
+    std::size_t scheduled_motions_;  ///< those that a schedule replaces, before those that were added
     std::optional<Growth> growth_;
     SimulationSettings settings_;
 

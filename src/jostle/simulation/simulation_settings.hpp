@@ -6,6 +6,7 @@
 #include "jostle/contact_problem/solver_method.hpp"
 #include "jostle/growth/growth_law.hpp"
 #include "jostle/lcp/lcp_problem.hpp"
+#include "jostle/simulation/conditions.hpp"
 
 namespace jostle {
 
@@ -13,7 +14,7 @@ namespace jostle {
 struct SimulationSettings {
     std::uint64_t seed = 1;
     double time_step = 0.0;
-    double kT = 0.0;                  ///< of the Brownian motion; 0 where there is none
+    double kT = 0.0;                  ///< of the Brownian motion in the last step; 0 where there is none
     bool brownian_correction = true;  ///< shift, compliance, true gap, moments of the stress (theory, section 3)
     double wca_energy = 0.0;          ///< of the potential that rods repel each other by; 0: they are hard
     double range = 0.0;               ///< contacts with a smaller gap are always taken; 0, or soft: as the step demands
@@ -24,6 +25,7 @@ struct SimulationSettings {
     bool stress_conventions = false;  ///< other conventions of the stress are measured, too
     bool collision_moments = false;   ///< the parts of the collision stress are kept, contact by contact
     std::optional<GrowthLaw> growth;
+    Schedule schedule = {};
 
     bool rods_are_soft() const { return wca_energy > 0.0; }
     /// Contacts are compliant, and gaps shifted.

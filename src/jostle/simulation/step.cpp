@@ -54,6 +54,41 @@ private:
     std::vector<double> before_;
 };
 
+/// A box that goes to its size at the end of a step, and the centres with it: where the step fails they have not. It
+/// closes gaps, as growth does, and the contact problem of the same step opens them.
+class Squeezing {
+public:
+    Squeezing(State& state, const std::optional<Vec3>& edges, CollisionSearch& search)
+        : state_(state), search_(search) {
+        if (!edges) return;
+        box_before_ = state.box;
+        centre_before_ = state.rods.centre;
+        for (int k = 0; k < 3; ++k) stretch_[k] = (*edges)[k] / box_before_.edges()[k];
+        state.box = Box(*edges, box_before_.periodic());
+        parallel_for(state.rods.size(), [&](std::size_t i) {
+            for (int k = 0; k < 3; ++k) state.rods.centre[i][k] *= stretch_[k];
+        });
+        search.stretch(stretch_);
+    }
+    Squeezing(const Squeezing&) = delete;
+    Squeezing& operator=(const Squeezing&) = delete;
+    ~Squeezing() {
+        if (centre_before_.empty()) return;
+        state_.box = box_before_;
+        state_.rods.centre.swap(centre_before_);
+        search_.invalidate();
+    }
+    const Vec3& stretch() const { return stretch_; }
+    void keep() { centre_before_.clear(); }
+
+private:
+    State& state_;
+    CollisionSearch& search_;
+    Box box_before_;
+    Vec3 stretch_{1, 1, 1};
+    std::vector<Vec3> centre_before_;
+};
+
 /// Pairs in contact may overlap by as much, in D, where contact forces turn them far in one step.
 constexpr double max_overlap_of_turning = 0.01;
 /// So often, and no more, is the problem of one step linearised about its solution.
@@ -69,6 +104,8 @@ StepReport Simulation::step() {
     PhaseTimer timer(report);
     threads_.begin_step(state_.rods.size());
     renumber();
+    Squeezing squeezing(state_, follow_schedule(), search_);
+    report.stretch = squeezing.stretch();
     Lengthening lengthening(growth_, state_.rods, settings_.time_step);
     const auto mobility = mobility_->at(state_.rods, state_.box);
     if (growth_ || std::exchange(sizes_changed_, false)) find_size_bounds(state_.rods, *mobility, settings_, sizes_);
@@ -92,6 +129,7 @@ StepReport Simulation::step() {
     measure_stress({state_, known_, contacts_, solution_}, settings_, half_way_axis_, report, moments_);  // 4
     timer.finish(StepPhase::measure_stress);
 
+    squeezing.keep();
     lengthening.keep();
     advance();  // 5
     timer.finish(StepPhase::advance);

@@ -40,6 +40,12 @@ void ActiveStress::begin(const Rods& rods, const Box& box) {
     remember_new(rods, box);
 }
 
+void ActiveStress::stretch(const Vec3& by) {
+    for (std::vector<Vec3>* remembered : {&newer_, &older_})
+        for (Vec3& position : *remembered)
+            for (int k = 0; k < 3; ++k) position[k] *= by[k];
+}
+
 void ActiveStress::divide(const Rods& rods, const Box& box, std::span<const Division> divisions) {
     if (divisions.empty()) return;
     know(rods);

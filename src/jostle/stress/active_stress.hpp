@@ -24,6 +24,9 @@ public:
     /// Remembers where the rods are at the beginning.
     void begin(const Rods& rods, const Box& box);
 
+    /// To be told where the box is stretched, and all centres with it: that is no part of a rod's path.
+    void stretch(const Vec3& by);
+
     /// A rod that has divided, and the one that came of it.
     struct Division {
         std::uint64_t mother, daughter;

@@ -124,6 +124,15 @@ void StressField::deposit(const Vec3& point, Add&& add) {
     }
 }
 
+void StressField::fit(const Vec3& edges) {
+    const double before = cell_volume();
+    box_ = Box(edges, box_.periodic());
+    for (int k = 0; k < 3; ++k) edges_[k] = edges[k] / static_cast<double>(cells_[static_cast<std::size_t>(k)]);
+    const double ratio = cell_volume() / before;
+    for (Content& content : content_) content = Content{}.add(ratio, content);
+    outside_ = Content{}.add(ratio, outside_);
+}
+
 void StressField::clear() {
     steps_ = 0.0;
     std::fill(content_.begin(), content_.end(), Content{});

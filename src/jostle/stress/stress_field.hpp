@@ -27,6 +27,10 @@ public:
     /// One step: its moments, and the rods after it, which turn with the temperature kT.
     void add(const CollisionMoments& moments, const Rods& rods, double kT);
 
+    /// To be told where the box has other edges: as many cells, of other size. What steps before have left in them, per
+    /// volume, stays.
+    void fit(const Vec3& edges);
+
     /// Forgets all steps.
     void clear();
 

@@ -51,6 +51,10 @@ bool set_quantity(Scene& scene, int index, double value, std::string& changed) {
             changed = full_key(table, name);
             if constexpr (std::is_same_v<Member, Vec3> || std::is_same_v<Member, std::optional<Vec3>>)
                 member = Vec3{1.0, value, 1.0};
+            else if constexpr (std::is_same_v<Member, Ramp<Vec3>>)
+                member = {{1.0, Vec3{1.0, value, 1.0}}};
+            else if constexpr (std::is_same_v<Member, Ramp<double>>)
+                member = {{1.0, value}};
             else
                 member = value;
         }
@@ -76,7 +80,7 @@ TEST_CASE("no quantity may be nan, infinite or out of bounds, whichever key it i
     std::string key;
     int quantities = 0;
     while (set_quantity(counted, quantities, 1.0, key)) ++quantities;
-    CHECK(quantities == 32);
+    CHECK(quantities == 36);
     for (int index = 0; index < quantities; ++index)
         for (const double value : {not_a_number, infinity, -infinity, 1e300, -1e300}) {
             std::string changed, message;

@@ -469,6 +469,22 @@ TEST_CASE("once all keys are sound, all that do not go together are said at once
     CHECK(parts.others[0].place.line == 8);
 }
 
+TEST_CASE("what does not go together is said beside mistakes of keys, where these are in other tables") {
+    // An unknown key of [output], a time that is missing, a box given twice, a tolerance that does not suit the limit.
+    const InputError::Parts parts = refusal(
+        "[box]\nvolume_fraction = 0.1\nedges = [9, 9, 9]\n[rods]\ncount = 10\nlength = 3.0\n[contact]\n"
+        "overlap_limit = 1e-6\n[time]\nstep = 0.1\nrms_step = 0.1\n[output]\nserie_every = 3\n");
+    std::vector<std::string> keys = {parts.key};
+    for (const InputError::Parts& other : parts.others) keys.push_back(other.key);
+    // Of [time] nothing is said beside what is missing there.
+    CHECK(keys ==
+          std::vector<std::string>{"box.edges", "contact.overlap_limit", "output.serie_every", "time.production"});
+}
+
+TEST_CASE("a mistake whose table is not known keeps silent what may follow from it") {
+    CHECK(refusal("volume_fraction = 0.1\n[rods]\ncount = 10\nlength = 3.0\n[time]\nproduction = 1\n").others.empty());
+}
+
 TEST_CASE("a misspelt key stands for itself: it is not said to be missing, too") {
     for (const char* line : {"lenght = 5.0", "aspect_ratio = 5.0"}) {
         const InputError::Parts parts = refusal("[box]\nvolume_fraction = 0.1\n[rods]\ncount = 9\n" +
