@@ -1,6 +1,7 @@
 #include "jostle/contact_problem/block_gauss_seidel.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 
 #include "jostle/parallel/parallel_for.hpp"
@@ -12,9 +13,8 @@ namespace {
 /// A contact without force takes part in the sweeps over those active if its gap would open by less than this many
 /// tolerances.
 constexpr double activation_tolerances = 100.0;
-/// Beginning warm, a contact takes part if it, or another of its rods, changes a gap by more than this part of the
-/// tolerance in a sweep.
-constexpr double convergence_tolerances = 0.5;
+/// What is added up of a sweep with momentum is counted in this part of the largest change squared.
+constexpr double turning_unit = 1e-9;
 
 /// Whether a new contact takes part from the first sweep on: pairs that touch at several points always do.
 template <class Real>
@@ -33,8 +33,7 @@ BlockGaussSeidel<Real>::BlockGaussSeidel(const ContactProblem& problem, double t
     : matrix_(problem.matrix()),
       b_(problem.constant()),
       start_(start),
-      activation_threshold_(activation_tolerances * tolerance / problem.time_step()),
-      convergence_threshold_(problem.start().empty() ? 0.0 : convergence_tolerances * tolerance / problem.time_step()) {
+      activation_threshold_(activation_tolerances * tolerance / problem.time_step()) {
     extend();
 }
 
@@ -56,9 +55,7 @@ void BlockGaussSeidel<Real>::extend() {
 template <class Real>
 double BlockGaussSeidel<Real>::sweep(double omega, SweepOver over) {
     const bool all = over == SweepOver::all;
-    if (all && convergence_threshold_ > 0.0) last_change_.assign(velocities_.size(), 0.0F);
-    const LocalRods<Real> local_rods{matrix_.rods().data(), velocities_.data(),
-                                     all && convergence_threshold_ > 0.0 ? last_change_.data() : nullptr};
+    const LocalRods<Real> local_rods{matrix_.rods().data(), velocities_.data()};
     double largest = 0.0;
     const auto pass = [&](auto& group) {
         const std::size_t items = all ? group.items.size() : group.all_active;
@@ -81,6 +78,42 @@ double BlockGaussSeidel<Real>::sweep(double omega, SweepOver over) {
 }
 
 template <class Real>
+SweepProgress BlockGaussSeidel<Real>::sweep_on(double beta, double last_change) {
+    carry_on_velocities(beta);
+    const Extrapolation by{beta, turning_unit * last_change * last_change};
+    const LocalRods<Real> local_rods{matrix_.rods().data(), velocities_.data()};
+    std::atomic<std::int64_t> turning = 0;
+    double largest = 0.0;
+    const auto pass = [&](auto& group) {
+        group.last.resize(group.items.size());
+        const auto sweep_block = [&](std::size_t number) {
+            const auto items = group.block(number);
+            const auto last = std::span(group.last).subspan(number * group.block_size, items.size());
+            const SweepProgress progress = jostle::sweep_on(items, last, by, local_rods);
+            turning += progress.turning;
+            return progress.change;
+        };
+        largest = std::max(largest, parallel_max_of_blocks(group.active.size(), group.items.size(), sweep_block));
+    };
+    for (Colour& colour : colours_) {
+        pass(colour.singles);
+        pass(colour.pairs);
+    }
+    return {largest, turning};
+}
+
+/// V is linear in the forces: what the last change of all of them did to it is done again, `beta` times.
+template <class Real>
+void BlockGaussSeidel<Real>::carry_on_velocities(double beta) {
+    former_velocities_.resize(velocities_.size());
+    parallel_for(velocities_.size(), [&](std::size_t local) {
+        const auto now = velocities_[local].lanes;
+        velocities_[local].lanes += static_cast<Real>(beta) * (now - former_velocities_[local].lanes);
+        former_velocities_[local].lanes = now;
+    });
+}
+
+template <class Real>
 void BlockGaussSeidel<Real>::read_velocities(std::span<ContactVelocity> velocities) const {
     parallel_for(velocities.size(), [&](std::size_t local) { velocities[local] = velocities_[local].velocity(); });
 }
@@ -97,7 +130,10 @@ void BlockGaussSeidel<Real>::refresh(ContactSolution& solution) {
         const ContactForce& force = solution.forces[local];
         ContactVelocity& velocity = solution.velocities[local];
         velocity = velocity_of(matrix_.rods()[local], force.force, force.moment);
-        velocities_[local] = SpatialVector<Real>(velocity);
+        const SpatialVector<Real> exact(velocity);
+        if (local < former_velocities_.size())
+            former_velocities_[local].lanes += exact.lanes - velocities_[local].lanes;
+        velocities_[local] = exact;
     });
 }
 
@@ -189,13 +225,7 @@ CoupledBlock BlockGaussSeidel<Real>::pair_of(const ContactPair& touching) const 
 template <class Real>
 template <class Item>
 void BlockGaussSeidel<Real>::find_active(Group<Item>& group) {
-    group.sort_out(0, [&](const Item& item) {
-        const auto moves = [&](std::uint32_t local) {
-            return local != no_local_index && static_cast<double>(last_change_[local]) > convergence_threshold_;
-        };
-        if (!last_change_.empty() && !moves(item.i) && !moves(item.j)) return false;
-        return may_push(item, velocities_.data(), activation_threshold_);
-    });
+    group.sort_out(0, [&](const Item& item) { return may_push(item, velocities_.data(), activation_threshold_); });
 }
 
 /// Calls body(number, force) for all contacts; those of a colour in parallel.

@@ -18,9 +18,8 @@ enum class SweepOver { all, active };
 /// Keeps the velocities of the rods, V = M D gamma, while contacts are solved one after the other.
 ///
 /// Pairs are coloured, so that no two of a colour share a rod. A sweep over all finds those that are active: that push
-/// or may soon, and, where sweeps begin from the forces of the last step, that still change by more than a part of the
-/// tolerance, or have a rod that does. A crowd is then solved where it moves, not where it has come to rest. Real is
-/// what velocities and single contacts are stored in; pairs, whose matrices may be nearly singular, are in double.
+/// or may soon. Real is what velocities and single contacts are stored in; pairs, whose matrices may be nearly
+/// singular, are in double.
 template <class Real>
 class BlockGaussSeidel {
 public:
@@ -33,6 +32,10 @@ public:
 
     /// One pass; returns the largest change of a gap velocity by a contact's own force.
     double sweep(double omega, SweepOver over);
+
+    /// One pass over all, not over-relaxed, from where the last change of all forces would lead if it were made again,
+    /// `beta` times; 0 after `extend` or another sweep. `last_change`: what the last pass returned, not 0.
+    SweepProgress sweep_on(double beta, double last_change);
 
     /// The velocities of the rods as the sweeps have left them.
     void read_velocities(std::span<ContactVelocity> velocities) const;
@@ -47,7 +50,8 @@ private:
     struct Group {
         static constexpr std::size_t block_size = 128;
         std::vector<Item> items;
-        std::vector<std::uint8_t> active;  ///< (blocks) how many are
+        std::vector<typename Item::Forces> last;  ///< (items) by what the last `sweep_on` changed their forces
+        std::vector<std::uint8_t> active;         ///< (blocks) how many are
         std::size_t all_active = 0;
 
         std::span<Item> block(std::size_t number) {
@@ -71,15 +75,16 @@ private:
     static void append(Group<Item>& group, std::span<const ContactPair> pairs, MakeItem&& item_of);
     template <class Item>
     void find_active(Group<Item>& group);
+    void carry_on_velocities(double beta);
     template <class Body>
     void for_all_forces(Body&& body);
 
     const DelassusOperator& matrix_;
     const std::vector<double>& b_;
     const std::vector<double>& start_;
-    double activation_threshold_, convergence_threshold_;
-    std::vector<SpatialVector<Real>> velocities_;  ///< (n) V, kept up to date
-    std::vector<float> last_change_;  ///< (n) the largest change in the last sweep over all; empty if not asked for
+    double activation_threshold_;
+    std::vector<SpatialVector<Real>> velocities_;         ///< (n) V, kept up to date
+    std::vector<SpatialVector<Real>> former_velocities_;  ///< (n) V of the forces before the last `sweep_on`
     PairColours pair_colours_;
     std::vector<Colour> colours_;
 };

@@ -67,15 +67,56 @@ double solve(CoupledBlock& pair, double omega, const LocalRods<Real>& local_rods
 template <class Item, class Real>
 double solve_all(std::span<Item> items, double omega, const LocalRods<Real>& local_rods) {
     double largest = 0.0;
-    for (Item& item : items) {
-        const double change = solve(item, omega, local_rods);
-        largest = std::max(largest, change);
-        if (local_rods.last_change == nullptr) continue;
-        for (const std::uint32_t local : {item.i, item.j})
-            if (local != no_local_index)
-                local_rods.last_change[local] = std::max(local_rods.last_change[local], static_cast<float>(change));
-    }
+    for (Item& item : items) largest = std::max(largest, solve(item, omega, local_rods));
     return largest;
+}
+
+/// A product of two changes in whole units; none is so many that the sum over all contacts would not fit.
+std::int64_t in_units(double product, double unit) {
+    constexpr double most = 1e12;
+    return static_cast<std::int64_t>(std::max(-most, std::min(most, product / unit)));
+}
+
+/// Each moves its forces on by beta times their last change, solves its own contact problem from there, and returns
+/// what that was.
+template <class Real>
+SweepProgress move_on(ScalarBlock<Real>& contact, Real& last, const Extrapolation& by,
+                      const LocalRods<Real>& local_rods) {
+    const Real before = contact.gamma, start = before + static_cast<Real>(by.beta) * last;
+    contact.gamma = start;
+    const double change = solve(contact, 1.0, local_rods);
+    last = contact.gamma - before;
+    const double taken = contact.diagonal * (start - contact.gamma), added = contact.diagonal * last;
+    return {change, in_units(taken * added, by.unit)};
+}
+
+template <class Real>
+SweepProgress move_on(CoupledBlock& pair, Points& last, const Extrapolation& by, const LocalRods<Real>& local_rods) {
+    Points before{}, start{};
+    for (std::uint32_t a = 0; a < pair.count; ++a) {
+        before[a] = pair.points[a].gamma;
+        start[a] = pair.points[a].gamma = before[a] + by.beta * last[a];
+    }
+    const double change = solve(pair, 1.0, local_rods);
+    double product = 0.0;
+    for (std::uint32_t a = 0; a < pair.count; ++a) {
+        const double gamma = pair.points[a].gamma, diagonal = pair.matrix[a][a];
+        last[a] = gamma - before[a];
+        product += diagonal * (start[a] - gamma) * diagonal * last[a];
+    }
+    return {change, in_units(product, by.unit)};
+}
+
+template <class Item, class Real>
+SweepProgress move_all_on(std::span<Item> items, std::span<typename Item::Forces> last, const Extrapolation& by,
+                          const LocalRods<Real>& local_rods) {
+    SweepProgress all;
+    for (std::size_t k = 0; k < items.size(); ++k) {
+        const SweepProgress one = move_on(items[k], last[k], by, local_rods);
+        all.change = std::max(all.change, one.change);
+        all.turning += one.turning;
+    }
+    return all;
 }
 
 }  // namespace
@@ -94,6 +135,23 @@ JOSTLE_VECTORISED double sweep_over(std::span<CoupledBlock> pairs, double omega,
 }
 JOSTLE_VECTORISED double sweep_over(std::span<CoupledBlock> pairs, double omega, const LocalRods<double>& local_rods) {
     return solve_all(pairs, omega, local_rods);
+}
+
+JOSTLE_VECTORISED SweepProgress sweep_on(std::span<ScalarBlock<float>> contacts, std::span<float> last,
+                                         const Extrapolation& by, const LocalRods<float>& local_rods) {
+    return move_all_on(contacts, last, by, local_rods);
+}
+JOSTLE_VECTORISED SweepProgress sweep_on(std::span<ScalarBlock<double>> contacts, std::span<double> last,
+                                         const Extrapolation& by, const LocalRods<double>& local_rods) {
+    return move_all_on(contacts, last, by, local_rods);
+}
+JOSTLE_VECTORISED SweepProgress sweep_on(std::span<CoupledBlock> pairs, std::span<Points> last, const Extrapolation& by,
+                                         const LocalRods<float>& local_rods) {
+    return move_all_on(pairs, last, by, local_rods);
+}
+JOSTLE_VECTORISED SweepProgress sweep_on(std::span<CoupledBlock> pairs, std::span<Points> last, const Extrapolation& by,
+                                         const LocalRods<double>& local_rods) {
+    return move_all_on(pairs, last, by, local_rods);
 }
 
 }  // namespace jostle

@@ -49,6 +49,8 @@ struct ScalarBlock {
     std::uint32_t i = 0, j = 0;  ///< local indices
     std::uint32_t number = 0;    ///< of the contact
 
+    using Forces = Real;  ///< one, or one a point
+
     Real gap_velocity(const SpatialVector<Real>* velocities) const {
         return b + compliance * gamma + sum_of_products(jacobian_i, velocities[i], jacobian_j, velocities[j]);
     }
@@ -71,6 +73,8 @@ struct CoupledBlock : BlockMatrix {
             return b + compliance * gamma + gap_rate(*this, rod_i, rod_j);
         }
     };
+    using Forces = Points;
+
     std::uint32_t i, j;   ///< local indices; i of a fixed body: no_local_index
     std::uint32_t first;  ///< number of the first contact; those of the others follow
     std::array<Point, max_points> points;
@@ -112,15 +116,40 @@ template <class Real>
 struct LocalRods {
     const MobileRod* rods;
     SpatialVector<Real>* velocities;
-    float* last_change;  ///< the largest change of a gap velocity by a contact of each, or null
 };
 
 /// Solves the contact problem of each in turn, over-relaxed, with all other forces as they are, and keeps the
-/// velocities up to date. Returns the largest change of a gap velocity by the contact's own force; raises `last_change`
-/// to it. No two may share a rod if their order is not to matter.
+/// velocities up to date. Returns the largest change of a gap velocity by the contact's own force. No two may share a
+/// rod if their order is not to matter.
 double sweep_over(std::span<ScalarBlock<float>> contacts, double omega, const LocalRods<float>& local_rods);
 double sweep_over(std::span<ScalarBlock<double>> contacts, double omega, const LocalRods<double>& local_rods);
 double sweep_over(std::span<CoupledBlock> pairs, double omega, const LocalRods<float>& local_rods);
 double sweep_over(std::span<CoupledBlock> pairs, double omega, const LocalRods<double>& local_rods);
+
+/// Where a sweep with momentum begins: `beta` times the change of all forces by the last sweep farther on.
+struct Extrapolation {
+    double beta = 0.0;
+    double unit = 0.0;  ///< of products of two changes of gap velocities, in which they are added up as whole numbers
+};
+
+/// How a sweep went.
+struct SweepProgress {
+    double change = 0.0;  ///< of a gap velocity by the contact's own force, at most
+    /// Sum over the contacts of (A_ll times what the sweep took from the extrapolated force) (A_ll times what it
+    /// added to the former one), in whole units: above 0 where the sweep turns back. The order of whole numbers does
+    /// not matter to their sum.
+    std::int64_t turning = 0;
+};
+
+/// The same sweep, not over-relaxed, from forces gamma + beta `last`, to which the velocities have been carried on
+/// already. `last`: one a contact, by what its forces changed in the last sweep, and then in this.
+SweepProgress sweep_on(std::span<ScalarBlock<float>> contacts, std::span<float> last, const Extrapolation& by,
+                       const LocalRods<float>& local_rods);
+SweepProgress sweep_on(std::span<ScalarBlock<double>> contacts, std::span<double> last, const Extrapolation& by,
+                       const LocalRods<double>& local_rods);
+SweepProgress sweep_on(std::span<CoupledBlock> pairs, std::span<Points> last, const Extrapolation& by,
+                       const LocalRods<float>& local_rods);
+SweepProgress sweep_on(std::span<CoupledBlock> pairs, std::span<Points> last, const Extrapolation& by,
+                       const LocalRods<double>& local_rods);
 
 }  // namespace jostle

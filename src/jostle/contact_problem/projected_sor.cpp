@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "jostle/contact_problem/block_gauss_seidel.hpp"
+#include "jostle/contact_problem/sweep_momentum.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
@@ -13,20 +14,25 @@ namespace {
 
 /// Over-relaxation: measured best between 1.3 and 1.4 for hard contacts of dilute and isotropic rods, between 1.0
 /// and 1.1 for compliant ones, whose matrix is better conditioned; harder problems want more, and so do those that
-/// begin warm, with what is left to the slowest modes of a crowd.
+/// begin warm, with what is left to the slowest modes of a crowd, where momentum has failed.
 double relaxation(std::uint64_t sweep, bool compliant, bool warm) {
     return sweep >= 60 || warm ? 1.6 : compliant ? 1.1 : 1.35;
 }
 
-/// Every so many sweeps, and after a verification, one passes over all contacts. Beginning warm, most of them rest, and
-/// have less need of being looked at.
-constexpr std::uint64_t full_sweep_every = 5, full_sweep_every_if_warm = 10;
+/// Every so many sweeps, and after a verification, one passes over all contacts.
+constexpr std::uint64_t full_sweep_every = 5;
 /// Sweeps in float are right to about 1e-6 of the deepest overlap, and finer tolerances are left to double.
 constexpr double finest_in_float = 1e-5;
 /// Double takes over where so many verifications have found more residual than the sweeps in float had left to do.
 constexpr int patience_with_float = 3;
 /// After this sweep, and three times as many, and so on, missed contacts are looked for before the sweeps have settled.
 constexpr std::uint64_t early_search = 6;
+/// Beginning warm, first where the largest change is this part of that of the first sweep, then whenever it has fallen
+/// to this part, last at so many tolerances.
+constexpr double first_search_part = 0.1, next_search_part = 0.3, last_search_tolerances = 2.0;
+/// With momentum single contacts change by several times what the residual is: it is computed from this many
+/// tolerances on.
+constexpr double early_verification_tolerances = 3.0;
 /// Every so many sweeps it is asked whether to go on.
 constexpr std::uint64_t sweeps_between_questions = 4;
 
@@ -60,7 +66,10 @@ public:
 
     /// Goes on after the last end; `grown`: the problem has more contacts since.
     End run(bool grown) {
-        if (grown) sweeper_.extend();
+        if (grown) {
+            sweeper_.extend();
+            momentum_.restart();
+        }
         bool sweep_is_judged = !std::exchange(at_candidate_, false) || grown;
         if (std::exchange(verify_first_, false) && verify()) return verified_end();
         for (;;) {
@@ -73,9 +82,8 @@ public:
             sweep_is_judged = true;
             if (!may_be_solved()) continue;
             const bool decided = verify();
-            // What rests may have been left too long: that is no failure of the sweeps.
-            const bool failed = !decided && (over_all_ || !warm_);
-            if (failed && ++failures_ == max_failures_) return End::given_up;
+            const bool settled = !(change_ > settings_.tolerance);
+            if (!decided && settled && ++failures_ == max_failures_) return End::given_up;
             look_at_all_ = true;
             next_verification_ = outcome_.iterations + 5;
             if (decided) return verified_end();
@@ -100,11 +108,22 @@ public:
 
 private:
     void sweep() {
-        const std::uint64_t period = warm_ ? full_sweep_every_if_warm : full_sweep_every;
-        over_all_ = std::exchange(look_at_all_, false) || outcome_.iterations % period == period - 1;
-        const double omega = relaxation(outcome_.iterations, problem_.matrix().compliant(), warm_);
-        change_ = problem_.time_step() * sweeper_.sweep(omega, over_all_ ? SweepOver::all : SweepOver::active);
+        change_ = problem_.time_step() * (has_momentum() ? sweep_on() : sweep_over_relaxed());
         ++outcome_.iterations;
+    }
+
+    double sweep_on() {
+        const double last_change = change_ > 0.0 ? change_ / problem_.time_step() : 1.0;
+        const auto [change, turning] = sweeper_.sweep_on(momentum_.beta(), last_change);
+        momentum_.advance(change, turning > 0);
+        return change;
+    }
+
+    double sweep_over_relaxed() {
+        const bool all =
+            std::exchange(look_at_all_, false) || outcome_.iterations % full_sweep_every == full_sweep_every - 1;
+        const double omega = relaxation(outcome_.iterations, problem_.matrix().compliant(), warm_);
+        return sweeper_.sweep(omega, all ? SweepOver::all : SweepOver::active);
     }
 
     bool is_interrupted() {
@@ -114,18 +133,29 @@ private:
     }
 
     bool is_time_to_search() {
-        if (outcome_.iterations < next_search_) return false;
+        if (!(has_momentum() ? has_fallen_to_next_search() : outcome_.iterations >= next_search_)) return false;
         next_search_ = 3 * outcome_.iterations;
+        next_search_change_ = next_search_part * change_;
         sweeper_.read_velocities(solution_.velocities);
         at_candidate_ = true;
         return true;
     }
 
-    /// The residual is near the last change; it is computed where that is small, and now and then for the paper's norm.
+    bool has_fallen_to_next_search() {
+        if (next_search_change_ == 0.0) next_search_change_ = first_search_part * change_;
+        return change_ <= next_search_change_ && change_ > last_search_tolerances * settings_.tolerance;
+    }
+
+    bool has_momentum() const { return warm_ && momentum_.is_trusted(); }
+
+    /// The residual is near the last change, or below it; it is computed where that is small, and now and then for the
+    /// paper's norm.
     bool may_be_solved() const {
         if (outcome_.iterations >= settings_.max_iterations) return true;
-        return settings_.residual == LcpResidual::length ? !(change_ > settings_.tolerance)
-                                                         : outcome_.iterations >= next_verification_;
+        const bool may_be_verified = outcome_.iterations >= next_verification_;
+        if (settings_.residual != LcpResidual::length) return may_be_verified;
+        const bool may_be_near = has_momentum() && may_be_verified;
+        return !(change_ > (may_be_near ? early_verification_tolerances : 1.0) * settings_.tolerance);
     }
 
     End verified_end() {
@@ -141,10 +171,11 @@ private:
     int max_failures_, failures_ = 0;
     bool verify_first_, warm_;
     BlockGaussSeidel<Real> sweeper_;
+    SweepMomentum momentum_;
     std::uint64_t next_search_ = early_search, next_verification_ = 0;
+    double next_search_change_ = 0.0;  ///< the same by the largest change
     bool at_candidate_ = false, look_at_all_ = false;
-    bool over_all_ = false;  ///< the last sweep was
-    double change_ = 0.0;    ///< of a gap by the last sweep, at most
+    double change_ = 0.0;  ///< of a gap by the last sweep, at most
 };
 
 ProjectedSor::ProjectedSor(const ContactProblem& problem, const LcpSettings& settings)

@@ -18,9 +18,12 @@ namespace jostle {
 /// two of one colour share a rod (PairColours): pairs of a colour can be solved by any threads in any order with the
 /// same result.
 ///
-/// Only contacts that push, or are about to, take part in most sweeps (BlockGaussSeidel). Before the result is called
-/// solved, forces and velocities are computed anew from gamma, and the residual over all contacts from them. It stops
-/// at a candidate now and then while sweeps go on, and at every solution. The outcome's iterations are sweeps.
+/// Where the problem has forces to begin from, what is left are the slow modes of a crowd: sweeps over all contacts are
+/// then not over-relaxed, but carried on by momentum (SweepMomentum), unless that fails.
+///
+/// Else only contacts that push, or are about to, take part in most sweeps (BlockGaussSeidel). Before the result is
+/// called solved, forces and velocities are computed anew from gamma, and the residual over all contacts from them. It
+/// stops at a candidate now and then while sweeps go on, and at every solution. The outcome's iterations are sweeps.
 ///
 /// Sweeps begin in float where that is fine enough for the tolerance; double takes over where it is not.
 class ProjectedSor final : public ContactSolver {

@@ -1,0 +1,107 @@
+// How far sweeps are carried on by what the last one changed.
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "jostle/contact_problem/sweep_momentum.hpp"
+
+using namespace jostle;
+
+namespace {
+
+double golden_ratio() {
+    return 0.5 * (1.0 + std::sqrt(5.0));
+}
+
+/// Gauss-Seidel sweeps over a chain of beads in contact, the first pushed, and the last held. The gap velocities, in
+/// units in which every diagonal of A is 1, are gamma_k - (gamma_{k-1} + gamma_{k+1})/2 - push_k. Returns the number
+/// of sweeps until no force changes by more than 1e-6.
+int sweeps_along_chain(bool with_momentum) {
+    constexpr int beads = 40;
+    double gamma[beads + 2] = {}, last[beads + 2] = {};
+    SweepMomentum momentum;
+    for (int sweep = 1; sweep < 100000; ++sweep) {
+        const double beta = with_momentum ? momentum.beta() : 0.0;
+        double before[beads + 2], start[beads + 2];
+        for (int k = 0; k < beads + 2; ++k) {
+            before[k] = gamma[k];
+            start[k] = gamma[k] += beta * last[k];
+        }
+        double change = 0.0, turning = 0.0;
+        for (int k = 1; k <= beads; ++k) {
+            gamma[k] = std::max(0.5 * (gamma[k - 1] + gamma[k + 1]) + (k == 1 ? 1.0 : 0.0), 0.0);
+            last[k] = gamma[k] - before[k];
+            change = std::max(change, std::fabs(gamma[k] - start[k]));
+            turning += (start[k] - gamma[k]) * last[k];
+        }
+        momentum.advance(change, turning > 0.0);
+        REQUIRE(momentum.is_trusted());
+        if (change > 1e-6) continue;
+        // gamma falls on a straight line: gamma_1 = 2 beads/(beads + 1).
+        CHECK(gamma[1] == doctest::Approx(2.0 * beads / (beads + 1.0)).epsilon(1e-3));
+        return sweep;
+    }
+    return 0;
+}
+
+}  // namespace
+
+TEST_CASE("beta follows Nesterov's sequence, from 0 on") {
+    SweepMomentum momentum;
+    CHECK(momentum.beta() == 0.0);
+    momentum.advance(1.0, false);
+    CHECK(momentum.beta() == 0.0);  // theta was 1
+    momentum.advance(1.0, false);
+    const double theta = golden_ratio(), next = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * theta * theta));
+    CHECK(momentum.beta() == doctest::Approx((theta - 1.0) / next).epsilon(1e-12));
+    double before = 0.0;
+    for (int k = 0; k < 1000; ++k) {
+        CHECK(momentum.beta() >= before);
+        before = momentum.beta();
+        momentum.advance(1.0, false);
+    }
+    CHECK(momentum.beta() == 0.95);
+}
+
+TEST_CASE("a sweep that turns back begins anew, and is no reason for distrust") {
+    SweepMomentum momentum;
+    for (int k = 0; k < 100; ++k) {
+        for (int n = 0; n < 5; ++n) momentum.advance(1.0, false);
+        CHECK(momentum.beta() > 0.0);
+        momentum.advance(1.0, true);
+        CHECK(momentum.beta() == 0.0);
+    }
+    CHECK(momentum.is_trusted());
+}
+
+TEST_CASE("changes that grow a hundredfold begin anew, at the third time for good") {
+    SweepMomentum momentum;
+    for (int k = 0; k < 3; ++k) {
+        CHECK(momentum.is_trusted());
+        for (int n = 0; n < 5; ++n) momentum.advance(1.0, false);
+        momentum.advance(99.0, false);  // single contacts do that
+        CHECK(momentum.beta() > 0.0);
+        momentum.advance(101.0, false);
+        CHECK(momentum.beta() == 0.0);
+    }
+    CHECK(!momentum.is_trusted());
+}
+
+TEST_CASE("contacts that are added may change gaps by anything") {
+    SweepMomentum momentum;
+    for (int k = 0; k < 10; ++k) {
+        for (int n = 0; n < 5; ++n) momentum.advance(1e-3, false);
+        momentum.restart();
+        CHECK(momentum.beta() == 0.0);
+        momentum.advance(1.0, false);
+    }
+    CHECK(momentum.is_trusted());
+}
+
+TEST_CASE("along a chain momentum saves most of the sweeps") {
+    const int without = sweeps_along_chain(false), with = sweeps_along_chain(true);
+    MESSAGE("sweeps: ", without, " without, ", with, " with");
+    CHECK(with > 0);
+    CHECK(10 * with < without);
+}
