@@ -43,6 +43,15 @@ Population population_of(const Scene& scene, const std::optional<Rods>& from_fil
 double seconds_per_rod_and_step(double volume_fraction) {
     return (0.15 + 1.6 * volume_fraction + 12.0 * volume_fraction * volume_fraction) * 1e-6;
 }
+/// What the fluid adds: more blobs of force for longer rods (docs/guide/hydrodynamics.md).
+double seconds_of_fluid_per_rod_and_step(const Scene& scene) {
+    if (scene.mobility.model != MobilityModel::hydrodynamic) return 0.0;
+    return (20.0 + 8.0 * scene.rods.length / scene.rods.diameter) * 1e-6;
+}
+double bytes_of_fluid_per_rod(const Scene& scene) {
+    if (scene.mobility.model != MobilityModel::hydrodynamic) return 0.0;
+    return 4000.0 + 1200.0 * scene.rods.length / scene.rods.diameter;
+}
 double bytes_per_rod(double volume_fraction) {
     return 480.0 + 2000.0 * volume_fraction + 9000.0 * volume_fraction * volume_fraction;
 }
@@ -246,13 +255,15 @@ void print_cost(const Scene& scene, const Population& population, const Box& box
         print("frames", scene.output.trajectory_times == FrameTimes::logarithmic
                             ? fmt::format("{:.0f}, at logarithmic times", frames)
                             : fmt::format("{:.0f}, one every {} steps", frames, frame_steps.every()));
-    print("memory, about", fmt::format("{:.0f} MB", 20.0 + count * bytes_per_rod(densest) / 1e6));
+    print("memory, about",
+          fmt::format("{:.0f} MB", 20.0 + count * (bytes_per_rod(densest) + bytes_of_fluid_per_rod(scene)) / 1e6));
     print("disk, about", fmt::format("{:.1f} MB", (rows * 400.0 + frames * count * 52.0 + count * 250.0) / 1e6));
     const double on_the_way = 0.5 * (phi + densest);  // of exponential growth, mean over the cells
     print("time on one thread, about",
-          colony
-              ? "not known: the larger a colony, the longer its contact forces take to find"
-              : fmt::format("{:.3g} s", steps * population.count * growth.mean * seconds_per_rod_and_step(on_the_way)));
+          colony ? "not known: the larger a colony, the longer its contact forces take to find"
+                 : fmt::format("{:.3g} s",
+                               steps * population.count * growth.mean *
+                                   (seconds_per_rod_and_step(on_the_way) + seconds_of_fluid_per_rod_and_step(scene))));
 }
 
 ExitCode check(const Scene& scene, const std::string& scene_path) {

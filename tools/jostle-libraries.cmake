@@ -40,6 +40,7 @@ endmacro()
 
 jostle_headers(Eigen3::Eigen Eigen/Eigenvalues libeigen3-dev SUFFIX eigen3)
 jostle_headers(fmt::fmt fmt/format.h libfmt-dev LIBRARY fmt HEADER_ONLY FMT_HEADER_ONLY)
+jostle_headers(kissfft::kissfft kissfft/kissfft.hh libkissfft-dev)
 jostle_headers(nlohmann_json::nlohmann_json nlohmann/json.hpp nlohmann-json3-dev)
 jostle_headers(Random123::Random123 Random123/philox.h librandom123-dev)
 jostle_headers(tomlplusplus::tomlplusplus toml++/toml.h libtomlplusplus-dev LIBRARY tomlplusplus COMPILED TOML_HEADER_ONLY=0 TOML_SHARED_LIB=1)

@@ -7,6 +7,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 # Libraries that work from their headers: Debian's package, and what is to be unpacked.
 HEADERS = {"libcli11-dev": "CLI", "libeigen3-dev": "eigen3", "librandom123-dev": "Random123", "libfmt-dev": "fmt",
+           "libkissfft-dev": "kissfft",
            "nlohmann-json3-dev": "nlohmann", "libtomlplusplus-dev": "toml++", "libxxhash-dev": "xxhash.h"}
 COMPILED = {"libhdf5-dev", "libqhull-dev"}
 NOTHING_OF_DEBIAN = ("-DCMAKE_IGNORE_PREFIX_PATH=/usr;/", "-DCMAKE_DISABLE_FIND_PACKAGE_HDF5=ON")
@@ -49,7 +50,7 @@ def test_headers_in_a_prefix_are_enough(tmp_path):
     assert result.returncode == 0, result.stderr
     found = dict(re.findall(r"^(\w+_INCLUDE_DIR):PATH=(.*)$", (tmp_path / "build/CMakeCache.txt").read_text(), re.MULTILINE))
     assert {name for name, place in found.items() if place.startswith(str(prefix))} >= {
-        f"{name}_INCLUDE_DIR" for name in ("CLI11", "Eigen3", "Random123", "fmt", "nlohmann_json", "tomlplusplus", "xxhash")}
+        f"{name}_INCLUDE_DIR" for name in ("CLI11", "Eigen3", "Random123", "fmt", "kissfft", "nlohmann_json", "tomlplusplus", "xxhash")}
     build = (tmp_path / "build/build.ninja").read_text()
     assert not re.search(r"lib(fmt|xxhash|tomlplusplus)\.(so|a)", build)
     assert "-DFMT_HEADER_ONLY" in build and "-DXXH_INLINE_ALL" in build and f"-isystem {prefix}/include" in build

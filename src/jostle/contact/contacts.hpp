@@ -8,6 +8,7 @@
 
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/rods/body.hpp"
+#include "jostle/rods/relative_mobility.hpp"
 #include "jostle/rods/rods.hpp"
 
 namespace jostle {
@@ -112,6 +113,12 @@ struct Contacts {
         });
     }
 };
+
+/// The points that a contact is made of, as far apart as it found them.
+inline PairOfPoints points_of(const Contact& contact, const Rods& rods) {
+    return {contact.i,     contact.j,      contact.arm_i,
+            contact.arm_j, contact.normal, contact.gap + contact_radii(contact, rods)};
+}
 
 /// The pair that contact l belongs to.
 inline PairKey pair_of(const Contacts& contacts, std::size_t l) {

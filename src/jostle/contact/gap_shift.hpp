@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <span>
 
 #include "jostle/contact/contacts.hpp"
@@ -16,6 +17,7 @@ struct GapShift {
     std::span<const Vec3> axis = {};        ///< (N)
     std::span<const RodMobility> own = {};  ///< (N) mobility of each rod; (0) without the correction
     double kT = 0.0, time_step = 0.0;
+    std::function<double(const Contact&)> coupled = {};  ///< A_ll, where rods move each other through the fluid
 
     /// What `exact` is at most, of any contact of rods i and j; of a rod and a fixed body it is the rod's part.
     double bound(std::uint32_t i, std::uint32_t j) const {
@@ -24,6 +26,7 @@ struct GapShift {
 
     double exact(const Contact& contact) const {
         if (own.empty()) return 0.0;
+        if (coupled && !is_fixed(contact.i)) return brownian_shift(kT, time_step, coupled(contact));
         const std::uint32_t i = contact.i, j = contact.j;
         const MobileRod rod_j = {axis[j], own[j]};
         return brownian_shift(kT, time_step,

@@ -4,15 +4,6 @@
 
 namespace jostle {
 
-namespace {
-
-PairOfPoints points_of(const Contact& contact, const Rods& rods) {
-    return {contact.i,     contact.j,      contact.arm_i,
-            contact.arm_j, contact.normal, contact.gap + contact_radii(contact, rods)};
-}
-
-}  // namespace
-
 DelassusOperator::DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods,
                                    const MobilityOperator& mobility, double compliance)
     : contact_matrix_(contact_matrix), all_rods_(rods), mobility_(mobility), compliance_(compliance) {

@@ -18,7 +18,8 @@ enum class Stream : std::uint32_t {
     reversal = 9,
     tumble_time = 10,
     tumble_rotation = 11,
-    monte_carlo = 12  // at most 15
+    monte_carlo = 12,
+    fluid = 13  // at most 15
 };
 
 /// Random numbers as a pure function of (seed, step, stream, id, draw): Philox4x32-10 (Salmon et al. 2011).

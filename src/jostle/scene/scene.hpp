@@ -14,7 +14,7 @@ namespace jostle {
 
 enum class UnitSystem { reduced, micro };
 enum class StartKind { random, aligned, lattice, file, run };
-enum class MobilityModel { slender_body, finite_aspect_ratio, capsule };
+enum class MobilityModel { slender_body, finite_aspect_ratio, capsule, hydrodynamic };
 enum class ContactModel { hard, wca };
 enum class WarmStarts { automatic, always, never };
 enum class StepRule { bb1, bb2, alternating };
@@ -64,6 +64,8 @@ struct Scene {
 
     struct MobilityTable {
         MobilityModel model = MobilityModel::capsule;
+        double tolerance = 1e-3;       // relative error of flows in a periodic box
+        std::optional<double> cutoff;  // of their sums in real space; "auto" (empty): what costs least
         bool operator==(const MobilityTable&) const = default;
     } mobility;
 

@@ -82,6 +82,8 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("fluid", "viscosity", scene.fluid.viscosity, Quantity{dim::viscosity, positive});
     visit("fluid", "kT", scene.fluid.kT, Quantity{dim::energy, zero_or_positive});
     visit("mobility", "model", scene.mobility.model, Plain{});
+    visit("mobility", "tolerance", scene.mobility.tolerance, Quantity{dim::none, {1e-6, 1e-2}});
+    visit("mobility", "cutoff", scene.mobility.cutoff, Quantity{dim::length, positive_length, true});
     visit("motion", "brownian", scene.motion.brownian, Plain{});
     visit("motion", "self_propulsion", scene.motion.self_propulsion, Quantity{dim::speed, zero_or_positive});
     visit("motion", "self_propulsion_deviation", scene.motion.self_propulsion_deviation,
@@ -150,7 +152,8 @@ constexpr auto words(MobilityModel) {
     return std::to_array<std::pair<std::string_view, MobilityModel>>(
         {{"capsule", MobilityModel::capsule},
          {"finite_aspect_ratio", MobilityModel::finite_aspect_ratio},
-         {"slender_body", MobilityModel::slender_body}});
+         {"slender_body", MobilityModel::slender_body},
+         {"hydrodynamic", MobilityModel::hydrodynamic}});
 }
 constexpr auto words(DivisionRule) {
     return std::to_array<std::pair<std::string_view, DivisionRule>>(

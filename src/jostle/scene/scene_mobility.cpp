@@ -1,5 +1,6 @@
 #include "jostle/scene/scene_mobility.hpp"
 
+#include "jostle/hydrodynamics/hydrodynamic_mobility.hpp"
 #include "jostle/mobility/drag.hpp"
 #include "jostle/mobility/drag_mobility.hpp"
 
@@ -16,6 +17,7 @@ DragOfViscosity drag_of(MobilityModel model) {
         case MobilityModel::finite_aspect_ratio:
             return finite_aspect_ratio_drag;
         case MobilityModel::capsule:
+        case MobilityModel::hydrodynamic:  // the own mobility of each rod
             break;
     }
     return capsule_drag;
@@ -24,6 +26,9 @@ DragOfViscosity drag_of(MobilityModel model) {
 }  // namespace
 
 std::unique_ptr<Mobility> make_mobility(const Scene& scene) {
+    if (scene.mobility.model == MobilityModel::hydrodynamic)
+        return std::make_unique<HydrodynamicMobility>(scene.fluid.viscosity, scene.mobility.tolerance,
+                                                      scene.mobility.cutoff);
     return std::make_unique<DragMobility>(
         [drag = drag_of(scene.mobility.model), viscosity = scene.fluid.viscosity](double length, double diameter) {
             return drag(length, diameter, viscosity);

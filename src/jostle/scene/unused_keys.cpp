@@ -38,6 +38,11 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
     else if (scene.motion.tumble_rate == 0.0)
         unused.push_back({"motion.tumble_time", "is not used with motion.tumble_rate = 0",
                           "Set tumble_rate, or remove tumble_time"});
+    if (scene.mobility.model != MobilityModel::hydrodynamic)
+        for (const char* key : {"mobility.tolerance", "mobility.cutoff"})
+            unused.push_back({key,
+                              fmt::format("is not used with mobility.model = \"{}\"", word_of(scene.mobility.model)),
+                              "Set model = \"hydrodynamic\", or remove it"});
     const bool soft = scene.contact.model == ContactModel::wca;
     const std::string with_model = fmt::format("is not used with contact.model = \"{}\"", word_of(scene.contact.model));
     if (!soft) unused.push_back({"contact.energy", with_model, "Set model = \"wca\", or remove energy"});

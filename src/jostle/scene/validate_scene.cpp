@@ -21,6 +21,7 @@
 #include "jostle/scene/step_limits.hpp"
 #include "jostle/scene/time_step.hpp"
 #include "jostle/scene/unused_keys.hpp"
+#include "jostle/scene/validate_fluid.hpp"
 
 namespace jostle {
 
@@ -272,6 +273,7 @@ const std::vector<TogetherCheck>& together_checks() {
         {check_box, {"box", "rods", "schedule"}},
         {check_motion, {"motion", "schedule"}},
         {check_mobility, {"mobility", "rods"}},
+        {validate_fluid, {"mobility", "rods", "box", "motion", "growth", "springs", "schedule", "contact", "solver"}},
         {check_schedule, {"schedule", "box", "growth"}},
         {check_springs, {"springs", "growth"}},
         {check_solver, {"contact", "solver", "fluid"}},

@@ -43,11 +43,13 @@ void find_size_bounds(const Rods& rods, const MobilityOperator& mobility, const 
     sizes.own_mobility.clear();
     if (!settings.corrects_brownian_motion()) return;
     sizes.own_mobility.resize(rods.size());
+    // M is positive: two coupled points are at most twice as mobile as by their rods' own blocks.
+    const double at_most = mobility.couples_rods() ? 2.0 : 1.0;
     parallel_for(rods.size(), [&](std::size_t i) {
         const RodMobility rod = sizes.own_mobility[i] = mobility.of_rod(i);
         const double half = 0.5 * rods.length[i];
         const double largest = std::max(rod.parallel, rod.perpendicular) + half * half * rod.rotational;
-        sizes.shift_part[i] = brownian_shift(settings.kT, settings.time_step, largest);
+        sizes.shift_part[i] = brownian_shift(settings.kT, settings.time_step, at_most * largest);
     });
 }
 
@@ -76,8 +78,12 @@ SearchRanges search_ranges(const State& state, const KnownMotion& known, const S
 }
 
 StepGeometry step_geometry(const State& state, const KnownMotion& known, const SizeBounds& sizes,
-                           const SimulationSettings& settings) {
-    const GapShift shift = {sizes.shift_part, state.rods.axis, sizes.own_mobility, settings.kT, settings.time_step};
+                           const SimulationSettings& settings, const MobilityOperator& mobility) {
+    GapShift shift = {sizes.shift_part, state.rods.axis, sizes.own_mobility, settings.kT, settings.time_step, {}};
+    if (mobility.couples_rods() && settings.corrects_brownian_motion())
+        shift.coupled = [&](const Contact& contact) {
+            return mobility.relative_mobility(points_of(contact, state.rods));
+        };
     return {state.rods,
             state.box,
             known.end,

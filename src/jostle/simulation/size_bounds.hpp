@@ -26,6 +26,6 @@ SearchRanges search_ranges(const State& state, const KnownMotion& known, const S
 
 /// The step as the search for contacts sees it. Holds references.
 StepGeometry step_geometry(const State& state, const KnownMotion& known, const SizeBounds& sizes,
-                           const SimulationSettings& settings);
+                           const SimulationSettings& settings, const MobilityOperator& mobility);
 
 }  // namespace jostle

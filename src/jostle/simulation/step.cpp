@@ -10,6 +10,7 @@
 #include "jostle/contact_problem/previous_forces.hpp"
 #include "jostle/motion/springs.hpp"
 #include "jostle/parallel/parallel_for.hpp"
+#include "jostle/simulation/forces_at_touching.hpp"
 #include "jostle/simulation/simulation.hpp"
 #include "jostle/simulation/step_stress.hpp"
 
@@ -113,7 +114,7 @@ StepReport Simulation::step() {
     find_known_motion(state_, motions_, *mobility, context(), known_);  // 1  U_known, and where it takes the rods
     timer.finish(StepPhase::known_velocity);
 
-    const StepGeometry geometry = step_geometry(state_, known_, sizes_, settings_);
+    const StepGeometry geometry = step_geometry(state_, known_, sizes_, settings_, *mobility);
     Contacts found = std::move(contacts_);
     ids_before_.clear();
     report.max_overlap = search_.find(geometry, found);  // 2  contacts
@@ -122,11 +123,15 @@ StepReport Simulation::step() {
     ContactProblem problem = posed_problem(*mobility, std::move(found));  // 3  A, b; gamma
     solution_ = settings_.rods_are_soft() ? repelled(problem) : resolved(problem, geometry, report);
     report.contacts = problem.size();
+    std::optional<ContactSolution> touching;
+    if (mobility->couples_rods() && settings_.corrects_brownian_motion())
+        touching = forces_at_touching(problem, solution_, state_.rods, *mobility);
     contacts_ = std::move(problem).take_contacts();
     timer.finish(StepPhase::solve_contacts);
     if (report.status != LcpStatus::converged) return report;  // nothing has happened
 
-    measure_stress({state_, known_, contacts_, solution_}, settings_, half_way_axis_, report, moments_);  // 4
+    measure_stress({state_, known_, contacts_, touching ? *touching : solution_}, settings_, half_way_axis_, report,
+                   moments_);  // 4
     timer.finish(StepPhase::measure_stress);
 
     squeezing.keep();

@@ -1,0 +1,120 @@
+#include "jostle/hydrodynamics/far_field.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "jostle/parallel/parallel_for.hpp"
+
+namespace jostle {
+
+namespace {
+
+using std::numbers::pi;
+using Complex = std::complex<double>;
+
+/// (I - kk/k^2) v
+WaveVector solenoidal(const Vec3& k, double k_squared, const WaveVector& v) {
+    const Complex along = (k.x * v[0] + k.y * v[1] + k.z * v[2]) / k_squared;
+    return {v[0] - along * k.x, v[1] - along * k.y, v[2] - along * k.z};
+}
+
+}  // namespace
+
+WaveFactors::WaveFactors(const Vec3& edges, const EwaldSplit& split, double spread, double viscosity)
+    : width_(0.25 / (split.splitting * split.splitting)) {
+    const SpreadingKernel kernel(split.spread_points);
+    for (int d = 0; d < 3; ++d) {
+        Waves& waves = along_[static_cast<std::size_t>(d)];
+        const std::size_t points = split.grid[static_cast<std::size_t>(d)];
+        for (std::size_t n = 0; n < points; ++n) {
+            const double number = static_cast<double>(n) - (2 * n > points ? static_cast<double>(points) : 0.0);
+            const double k = 2.0 * pi * number / edges[d];
+            const double transform = kernel.transform(2.0 * pi * number / static_cast<double>(points));
+            waves.number.push_back(k);
+            waves.factor.push_back(2 * n == points ? 0.0
+                                                   : std::exp(-k * k * (spread + width_)) / (transform * transform));
+        }
+    }
+    for (double& factor : along_[2].factor) factor /= viscosity * edges.x * edges.y * edges.z;
+}
+
+FarField::FarField(const Rods& rods, const Box& box, const RodBlobs& blobs, const EwaldSplit& split,
+                   const WaveFactors& factors)
+    : blobs_(rods, box, blobs, split), grid_(split.grid), factors_(factors) {}
+
+/// From the forces on the grid to the flow there.
+void FarField::solve() const {
+    grid_.forward();
+    const auto [nx, ny, nz] = grid_.points();
+    const std::size_t wx = grid_.waves_along_x(), rows = ny;
+    parallel_for_parts(nz, [&](std::size_t z) {
+        for (std::size_t y = 0; y < rows; ++y)
+            for (std::size_t x = 0; x < wx; ++x) {
+                WaveVector& v = grid_.waves[(z * rows + y) * wx + x];
+                const double multiplier = factors_.factor(x, y, z);
+                if (multiplier == 0.0) {
+                    v = {};
+                    continue;
+                }
+                const Vec3 k = factors_.wave(x, y, z);
+                v = solenoidal(k, squared_norm(k), v);
+                for (Complex& component : v) component *= multiplier;
+            }
+    });
+    grid_.backward();
+}
+
+void FarField::add_flow(std::span<const LineVector> forces, std::span<LineVector> velocities) const {
+    blobs_.spread(forces, grid_.field);
+    solve();
+    blobs_.gather(grid_.field, velocities);
+}
+
+void FarField::add_axial_flow(const AxialStresslet& stresslet, std::span<LineVector> velocities) const {
+    blobs_.spread(stresslet, grid_.field);
+    solve();
+    blobs_.gather(grid_.field, velocities);
+}
+
+/// A wave and its mirror image share their six normal numbers: those of the place of the first of the two.
+void FarField::draw(const RandomKey& key, double scale) const {
+    const auto [nx, ny, nz] = grid_.points();
+    const std::size_t wx = grid_.waves_along_x(), rows = ny, planes = nz;
+    parallel_for_parts(planes, [&](std::size_t z) {
+        std::vector<std::uint64_t> ids(wx);
+        std::vector<Normals> normals(wx);
+        for (std::size_t y = 0; y < rows; ++y) {
+            const std::size_t first = (z * rows + y) * wx;
+            for (std::size_t x = 0; x < wx; ++x) ids[x] = first + x;
+            // Waves with k_x = 0 have their images among those that are kept.
+            const std::size_t image = ((planes - z) % planes * rows + (rows - y) % rows) * wx;
+            const bool is_image = image < first;
+            if (is_image) ids[0] = image;
+            fill_normals(key, ids, normals);
+            for (std::size_t x = 0; x < wx; ++x) {
+                WaveVector& v = grid_.waves[first + x];
+                const double multiplier = factors_.factor(x, y, z);
+                if (multiplier == 0.0) {
+                    v = {};
+                    continue;
+                }
+                const double sign = x == 0 && is_image ? -1.0 : 1.0;
+                const Normals& xi = normals[x];
+                const Vec3 k = factors_.wave(x, y, z);
+                v = solenoidal(
+                    k, squared_norm(k),
+                    {Complex{xi[0], sign * xi[1]}, Complex{xi[2], sign * xi[3]}, Complex{xi[4], sign * xi[5]}});
+                const double size = scale * std::sqrt(0.5 * multiplier);
+                for (Complex& component : v) component *= size;
+            }
+        }
+    });
+}
+
+void FarField::add_square_root(const RandomKey& key, double scale, std::span<LineVector> velocities) const {
+    draw(key, scale);
+    grid_.backward();
+    blobs_.gather(grid_.field, velocities);
+}
+
+}  // namespace jostle

@@ -1,0 +1,222 @@
+#include "jostle/hydrodynamics/hydrodynamic_mobility.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "jostle/error/refuse.hpp"
+#include "jostle/hydrodynamics/far_field.hpp"
+#include "jostle/hydrodynamics/near_field.hpp"
+#include "jostle/hydrodynamics/square_root.hpp"
+#include "jostle/parallel/parallel_for.hpp"
+
+namespace jostle {
+
+/// What does not depend on where rods are, but on their lengths and the box.
+struct FluidFlows {
+    std::shared_ptr<const BlobLines> lines;
+    Box box;
+    EwaldSplit split;  ///< empty in an unbounded fluid
+    PairFlow unbounded;
+    std::optional<PairFlow> near;        ///< in a periodic box
+    std::optional<WaveFactors> factors;  ///< in a periodic box
+
+    FluidFlows(const RodBlobs& blobs, const Box& around, const EwaldSplit& ewald, double viscosity)
+        : lines(blobs.kinds), box(around), split(ewald), unbounded(PairFlow::unbounded(blobs.spread(), viscosity)) {
+        if (split.spread_points == 0) return;
+        near = PairFlow::near(blobs.spread(), split.splitting, viscosity, split.cutoff);
+        factors.emplace(box.edges(), split, blobs.spread(), viscosity);
+    }
+
+    bool fit(const RodBlobs& blobs, const Box& around, const EwaldSplit& ewald) const {
+        return lines == blobs.kinds && box.edges() == around.edges() && box.periodic() == around.periodic() &&
+               split == ewald;
+    }
+    const PairFlow& in_real_space() const { return near ? *near : unbounded; }
+};
+
+namespace {
+
+/// Near and far field of one configuration.
+struct Sums {
+    NearField near;
+    std::optional<FarField> far;
+};
+
+class HydrodynamicOperator final : public MobilityOperator {
+public:
+    HydrodynamicOperator(const Rods& rods, const Box& box, RodBlobs blobs, std::shared_ptr<const FluidFlows> flows,
+                         double noise_change)
+        : MobilityOperator(rods),
+          box_(box),
+          blobs_(std::move(blobs)),
+          flows_(std::move(flows)),
+          noise_change_(noise_change) {}
+
+    void apply(const Forces& forces, Velocities& velocities) const override {
+        std::vector<LineVector> pushed(rods().size()), moved(rods().size());
+        parallel_for(pushed.size(), [&](std::size_t i) {
+            pushed[i] = {forces.force[i], cross(forces.torque[i], rods().axis[i])};
+        });
+        sums().near.apply(pushed, moved);
+        if (sums().far) sums().far->add_flow(pushed, moved);
+        velocities = Velocities(rods().size());
+        add(moved, velocities);
+    }
+
+    /// xi: six numbers a rod for the near field, and six a wave of the grid (Stream::fluid) for the far field.
+    void add_square_root(const RandomKey& key, double scale, Velocities& velocities) const override {
+        std::vector<LineVector> moved = near_noise(key, scale);
+        RandomKey of_waves = key;
+        of_waves.stream = Stream::fluid;
+        if (sums().far) sums().far->add_square_root(of_waves, scale, moved);
+        add(moved, velocities);
+    }
+
+    void add_drift(double kT, Velocities& velocities) const override {
+        if (blobs_.most_blobs() < 2) return;  // spheres: M does not depend on their axes
+        const AxialStresslet thermal{.force = -2.0 * kT, .dipole = -kT};
+        std::vector<LineVector> moved(rods().size());
+        sums().near.add_axial_flow(thermal, moved);
+        if (sums().far) sums().far->add_axial_flow(thermal, moved);
+        add(moved, velocities);
+    }
+
+    bool couples_rods() const override { return true; }
+    RodMobility of_rod(std::size_t i) const override { return blobs_.of(i).own; }
+
+    /// Theory, eq. (7.9): of the two rods alone in an unbounded fluid.
+    double relative_mobility(const PairOfPoints& points) const override {
+        const double own = MobilityOperator::relative_mobility(points);
+        return points.i == points.j ? own : own - 2.0 * coupling(points);
+    }
+
+private:
+    const Sums& sums() const {
+        std::call_once(summed_, [this] {
+            std::vector<RodMobility> own;
+            for (const BlobLine& line : blobs_.lines()) own.push_back(own_near(line));
+            sums_.reset(new Sums{NearField(rods(), box_, blobs_, flows_->in_real_space(), std::move(own)), {}});
+            if (flows_->near) sums_->far.emplace(rods(), box_, blobs_, flows_->split, *flows_->factors);
+        });
+        return *sums_;
+    }
+
+    RodMobility own_near(const BlobLine& line) const {
+        const double cutoff = flows_->in_real_space().cutoff();
+        const RodMobility blobs = mobility_of_blobs(line, [&](double squared) {
+            return squared < cutoff * cutoff ? flows_->in_real_space().at(squared) : BlobFlow{};
+        });
+        const RodMobility& rest = line.remainder;
+        return {blobs.parallel + rest.parallel, blobs.perpendicular + rest.perpendicular,
+                blobs.rotational + rest.rotational};
+    }
+
+    /// Square root of the near field times normal numbers. Levers are measured in lengths that make the two own
+    /// mobilities of a rod alike, so that the iteration settles soon.
+    std::vector<LineVector> near_noise(const RandomKey& key, double scale) const {
+        const std::size_t count = rods().size();
+        std::vector<double> lever(count);
+        std::vector<LineVector> xi(count);
+        std::vector<Normals> normals(count);
+        parallel_for_blocks(count, normals_at_a_time, [&](std::size_t, std::size_t begin, std::size_t end) {
+            fill_normals(key, {rods().id.data() + begin, end - begin}, {normals.data() + begin, end - begin});
+            for (std::size_t i = begin; i < end; ++i) {
+                const Normals& n = normals[i];
+                lever[i] = std::sqrt(of_rod(i).perpendicular / of_rod(i).rotational);
+                xi[i] = {{n[0], n[1], n[2]}, across(rods().axis[i], {n[3], n[4], n[5]})};
+            }
+        });
+        std::vector<LineVector> scaled(count);
+        const auto matrix = [&](std::span<const LineVector> x, std::span<LineVector> result) {
+            parallel_for(count, [&](std::size_t i) { scaled[i] = {x[i].centre, lever[i] * x[i].lever}; });
+            sums().near.apply(scaled, result);
+            parallel_for(count, [&](std::size_t i) { result[i].lever *= lever[i]; });
+        };
+        std::vector<LineVector> noise = times_square_root(matrix, std::move(xi), noise_change_);
+        parallel_for(count, [&](std::size_t i) {
+            noise[i].centre *= scale;
+            noise[i].lever *= scale / lever[i];
+        });
+        return noise;
+    }
+
+    /// How fast the point of j moves along the normal, for a unit force along it at that of i.
+    double coupling(const PairOfPoints& points) const {
+        const BlobLine &line_i = blobs_.of(points.i), &line_j = blobs_.of(points.j);
+        const Vec3 &axis_i = rods().axis[points.i], &axis_j = rods().axis[points.j];
+        const Vec3 lever_i = points.arm_i * across(axis_i, points.normal);
+        const Vec3 lever_j = points.arm_j * across(axis_j, points.normal);
+        const Vec3 apart = points.arm_i * axis_i + points.distance * points.normal - points.arm_j * axis_j;
+        double sum = 0.0;
+        for (std::size_t b = 0; b < line_i.place.size(); ++b) {
+            const Vec3 force = line_i.force_weight[b] * points.normal + line_i.lever_weight[b] * lever_i;
+            for (std::size_t c = 0; c < line_j.place.size(); ++c) {
+                const Vec3 on_j = line_j.force_weight[c] * points.normal + line_j.lever_weight[c] * lever_j;
+                const Vec3 r = apart + line_j.place[c] * axis_j - line_i.place[b] * axis_i;
+                sum += dot(on_j, flows_->unbounded.at(squared_norm(r)).of(r, force));
+            }
+        }
+        return sum;
+    }
+
+    void add(std::span<const LineVector> moved, Velocities& velocities) const {
+        parallel_for(moved.size(), [&](std::size_t i) {
+            velocities.linear[i] += moved[i].centre;
+            velocities.angular[i] += cross(rods().axis[i], moved[i].lever);
+        });
+    }
+
+    const Box& box_;
+    RodBlobs blobs_;
+    std::shared_ptr<const FluidFlows> flows_;
+    double noise_change_;
+    mutable std::once_flag summed_;
+    mutable std::unique_ptr<Sums> sums_;
+};
+
+void require_known_box(const Rods& rods, const Box& box) {
+    const auto [x, y, z] = box.periodic();
+    if (x != y || y != z)
+        refuse("box.periodic", fmt::format("[{}, {}, {}]", x, y, z),
+               "flows are known in a box that is periodic along all directions, or along none, for mobility.model = "
+               "\"hydrodynamic\"",
+               "all true, or all false");
+    if (!x && rods.size() > most_rods_in_open_box)
+        refuse("rods.count", fmt::format("{}", rods.size()),
+               "in an open box every pair of rods is summed for mobility.model = \"hydrodynamic\"",
+               fmt::format("at most {}", most_rods_in_open_box), "Make the box periodic");
+}
+
+}  // namespace
+
+HydrodynamicMobility::HydrodynamicMobility(double viscosity, double tolerance, std::optional<double> cutoff)
+    : viscosity_(viscosity), tolerance_(tolerance), cutoff_(cutoff) {}
+
+std::unique_ptr<const MobilityOperator> HydrodynamicMobility::at(const Rods& rods, const Box& box) const {
+    require_known_box(rods, box);
+    std::shared_ptr<const FluidFlows> flows;
+    {
+        const std::lock_guard guard(lock_);
+        flows = last_;
+    }
+    RodBlobs blobs = blobs_of(rods, viscosity_, flows ? flows->lines : nullptr);
+    EwaldSplit split;
+    if (box.is_periodic() && rods.size() > 0)
+        split = ewald_split(tolerance_, cutoff_, box,
+                            {.rods = static_cast<double>(rods.size()),
+                             .blobs_per_rod = static_cast<double>(blobs.most_blobs()),
+                             .longest_line = 2.0 * blobs.longest_half(),
+                             .spread = blobs.spread()});
+    if (!flows || !flows->fit(blobs, box, split)) {
+        flows = std::make_shared<const FluidFlows>(blobs, box, split, viscosity_);
+        const std::lock_guard guard(lock_);
+        last_ = flows;
+    }
+    return std::make_unique<HydrodynamicOperator>(rods, box, std::move(blobs), std::move(flows),
+                                                  std::min(tolerance_, 1e-3));
+}
+
+}  // namespace jostle

@@ -1,0 +1,205 @@
+#include "jostle/hydrodynamics/near_field.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+#include "jostle/contact/cell_list.hpp"
+#include "jostle/parallel/parallel_for.hpp"
+
+namespace jostle {
+
+namespace {
+
+constexpr Image home{0, 0, 0};
+
+/// Each pair is found once: by the rod with the smaller id, a rod's own image by that ahead of it.
+bool is_first(const PairKey& key, std::span<const std::uint64_t> ids) {
+    return key.i == key.j ? key.image > home : ids[key.i] < ids[key.j];
+}
+
+struct SymmetricSum {
+    std::array<double, 6> m{};
+
+    void add(double weight, const BlobFlow& flow, const Vec3& r) {
+        const double isotropic = weight * flow.isotropic;
+        const Vec3 radial = (weight * flow.radial) * r;
+        m[0] += isotropic + radial.x * r.x;
+        m[1] += radial.x * r.y;
+        m[2] += radial.x * r.z;
+        m[3] += isotropic + radial.y * r.y;
+        m[4] += radial.y * r.z;
+        m[5] += isotropic + radial.z * r.z;
+    }
+    std::array<float, 6> rounded() const {
+        std::array<float, 6> block;
+        for (std::size_t k = 0; k < 6; ++k) block[k] = static_cast<float>(m[k]);
+        return block;
+    }
+};
+
+inline void add_product(const std::array<float, 6>& a, const Vec3& v, Vec3& sum) {
+    sum.x += a[0] * v.x + a[1] * v.y + a[2] * v.z;
+    sum.y += a[1] * v.x + a[3] * v.y + a[4] * v.z;
+    sum.z += a[2] * v.x + a[4] * v.y + a[5] * v.z;
+}
+
+}  // namespace
+
+NearField::NearField(const Rods& rods, const Box& box, const RodBlobs& blobs, const PairFlow& flow,
+                     std::vector<RodMobility> own)
+    : rods_(rods), box_(box), blobs_(blobs), flow_(flow), own_(std::move(own)) {
+    find_pairs(box);
+    blocks_.resize(pairs_.size());
+    parallel_for(pairs_.size(), [&](std::size_t p) { blocks_[p] = blocks_of(pairs_[p]); });
+    list_incidence();
+}
+
+void NearField::find_pairs(const Box& box) {
+    std::vector<std::vector<PairKey>> found;
+    const auto keep = [&](std::vector<PairKey>& mine, const PairKey& key) {
+        if (is_first(key, rods_.id) && meet(key)) mine.push_back(key);
+    };
+    if (!box.is_periodic()) {
+        found.resize(rods_.size());
+        parallel_for(rods_.size(), [&](std::size_t i) {
+            for (std::uint32_t j = 0; j < rods_.size(); ++j)
+                if (j != i) keep(found[i], {static_cast<std::uint32_t>(i), j, home});
+        });
+    } else {
+        const CellList cells(rods_, box, flow_.cutoff() + 2.0 * blobs_.longest_half());
+        found.resize(cells.size());
+        parallel_for_parts(cells.size(), [&](std::size_t cell) {
+            for (const std::uint32_t i : cells.rods_in(cell))
+                cells.visit(cell, [&](std::span<const std::uint32_t> rods, const Image& image) {
+                    for (const std::uint32_t j : rods)
+                        if (j != i || image != home) keep(found[cell], {i, j, image});
+                });
+        });
+    }
+    for (const auto& part : found) pairs_.insert(pairs_.end(), part.begin(), part.end());
+}
+
+/// Whether two blobs are nearer than the cutoff.
+bool NearField::meet(const PairKey& key) const {
+    const BlobLine &line_i = blobs_.of(key.i), &line_j = blobs_.of(key.j);
+    const Vec3 apart = between(key);
+    const double cutoff = flow_.cutoff(), reach = cutoff + line_i.half() + line_j.half();
+    if (!(squared_norm(apart) < reach * reach)) return false;
+    for (const double s_i : line_i.place)
+        for (const double s_j : line_j.place)
+            if (squared_norm(apart + s_j * rods_.axis[key.j] - s_i * rods_.axis[key.i]) < cutoff * cutoff) return true;
+    return false;
+}
+
+NearField::PairBlocks NearField::blocks_of(const PairKey& key) const {
+    const BlobLine &line_i = blobs_.of(key.i), &line_j = blobs_.of(key.j);
+    const Vec3 apart = between(key), axis_i = rods_.axis[key.i], axis_j = rods_.axis[key.j];
+    const double squared_cutoff = flow_.cutoff() * flow_.cutoff();
+    SymmetricSum centre_centre, centre_lever, lever_centre, lever_lever;
+    for (std::size_t c = 0; c < line_j.place.size(); ++c) {
+        SymmetricSum on_centre, on_lever;  // of i, from blob c of j
+        const Vec3 to_blob = apart + line_j.place[c] * axis_j;
+        for (std::size_t b = 0; b < line_i.place.size(); ++b) {
+            const Vec3 r = to_blob - line_i.place[b] * axis_i;
+            const double squared = squared_norm(r);
+            if (!(squared < squared_cutoff)) continue;
+            const BlobFlow flow = flow_.at(squared);
+            on_centre.add(line_i.force_weight[b], flow, r);
+            on_lever.add(line_i.lever_weight[b], flow, r);
+        }
+        for (std::size_t k = 0; k < 6; ++k) {
+            centre_centre.m[k] += line_j.force_weight[c] * on_centre.m[k];
+            centre_lever.m[k] += line_j.lever_weight[c] * on_centre.m[k];
+            lever_centre.m[k] += line_j.force_weight[c] * on_lever.m[k];
+            lever_lever.m[k] += line_j.lever_weight[c] * on_lever.m[k];
+        }
+    }
+    return {centre_centre.rounded(), centre_lever.rounded(), lever_centre.rounded(), lever_lever.rounded()};
+}
+
+/// What rod i of the pair gets from stresslets on rod j.
+LineVector NearField::flow_at(const PairKey& key, const AxialStresslet& stresslet) const {
+    const BlobLine &line_i = blobs_.of(key.i), &line_j = blobs_.of(key.j);
+    const Vec3 apart = between(key), axis_i = rods_.axis[key.i], axis_j = rods_.axis[key.j];
+    const double squared_cutoff = flow_.cutoff() * flow_.cutoff();
+    LineVector sum;
+    for (std::size_t b = 0; b < line_i.place.size(); ++b) {
+        Vec3 velocity;
+        for (std::size_t c = 0; c < line_j.place.size(); ++c) {
+            const Vec3 r = apart + line_j.place[c] * axis_j - line_i.place[b] * axis_i;
+            const double squared = squared_norm(r);
+            if (!(squared < squared_cutoff)) continue;
+            const BlobFlowSlope flow = flow_.with_slope(squared);
+            // r grows with the place of blob c, whose dipole is the derivative of its flow by this place.
+            velocity += (stresslet.force * line_j.lever_weight[c]) * flow.flow.of(r, axis_j) +
+                        (stresslet.dipole * line_j.lever_weight[c] * line_j.place[c]) * flow.along(r, axis_j);
+        }
+        sum.centre += line_i.force_weight[b] * velocity;
+        sum.lever += line_i.lever_weight[b] * velocity;
+    }
+    return sum;
+}
+
+void NearField::list_incidence() {
+    begin_.assign(rods_.size() + 1, 0);
+    incidence_.resize(2 * pairs_.size());
+    for (const PairKey& pair : pairs_) {
+        ++begin_[pair.i + 1];
+        ++begin_[pair.j + 1];
+    }
+    for (std::size_t i = 0; i < rods_.size(); ++i) begin_[i + 1] += begin_[i];
+    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+        incidence_[next[pairs_[p].i]++] = static_cast<std::uint32_t>(2 * p);
+        incidence_[next[pairs_[p].j]++] = static_cast<std::uint32_t>(2 * p + 1);
+    }
+    const auto order = [this](std::uint32_t side) {
+        const PairKey& pair = pairs_[side / 2];
+        return side % 2 == 0 ? std::tuple(rods_.id[pair.j], pair.image)
+                             : std::tuple(rods_.id[pair.i], pair.turned().image);
+    };
+    parallel_for(rods_.size(), [&](std::size_t i) {
+        std::sort(incidence_.begin() + static_cast<std::ptrdiff_t>(begin_[i]),
+                  incidence_.begin() + static_cast<std::ptrdiff_t>(begin_[i + 1]),
+                  [&](std::uint32_t a, std::uint32_t b) { return order(a) < order(b); });
+    });
+}
+
+/// Adds received(pair, whether the rod is j) of all pairs of each rod.
+template <class Received>
+void NearField::gather(std::span<LineVector> velocities, Received&& received) const {
+    parallel_for(rods_.size(), [&](std::size_t i) {
+        LineVector sum;
+        for (std::size_t entry = begin_[i]; entry < begin_[i + 1]; ++entry)
+            received(incidence_[entry] / 2, incidence_[entry] % 2 == 1, sum);
+        velocities[i].centre += sum.centre;
+        velocities[i].lever += across(rods_.axis[i], sum.lever);
+    });
+}
+
+void NearField::apply(std::span<const LineVector> forces, std::span<LineVector> velocities) const {
+    parallel_for(rods_.size(), [&](std::size_t i) {
+        const RodMobility& own = own_[blobs_.line_of[i]];
+        const Vec3 &axis = rods_.axis[i], &force = forces[i].centre;
+        velocities[i] = {own.perpendicular * force + ((own.parallel - own.perpendicular) * dot(axis, force)) * axis,
+                         own.rotational * forces[i].lever};
+    });
+    gather(velocities, [&](std::size_t pair, bool is_j, LineVector& sum) {
+        const PairBlocks& blocks = blocks_[pair];
+        const LineVector& other = forces[is_j ? pairs_[pair].i : pairs_[pair].j];
+        add_product(blocks.centre_centre, other.centre, sum.centre);
+        add_product(is_j ? blocks.lever_centre : blocks.centre_lever, other.lever, sum.centre);
+        add_product(is_j ? blocks.centre_lever : blocks.lever_centre, other.centre, sum.lever);
+        add_product(blocks.lever_lever, other.lever, sum.lever);
+    });
+}
+
+void NearField::add_axial_flow(const AxialStresslet& stresslet, std::span<LineVector> velocities) const {
+    std::vector<std::array<LineVector, 2>> received(pairs_.size());
+    parallel_for(pairs_.size(), [&](std::size_t p) {
+        received[p] = {flow_at(pairs_[p], stresslet), flow_at(pairs_[p].turned(), stresslet)};
+    });
+    gather(velocities, [&](std::size_t pair, bool is_j, LineVector& sum) { sum += received[pair][is_j ? 1 : 0]; });
+}
+
+}  // namespace jostle
