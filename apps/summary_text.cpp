@@ -3,15 +3,31 @@
 #include <fmt/format.h>
 
 #include <utility>
+#include <vector>
 
+#include "jostle/scene/scene_walls.hpp"
 #include "jostle/scene/units.hpp"
 
 using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::pair<const char*, const char*> checks[] = {{"total_stress_ratio", "total stress"},
-                                                          {"collision_stress_ratio", "collision stress"}};
+/// Checks of one ratio, by their keys, each with the name of its line.
+struct Checks {
+    const char *ratio, *before, *after;  ///< what the name stands between in a warning
+    std::vector<std::pair<const char*, const char*>> lines;
+};
+const Checks all_checks[] = {{"stress ratio along/across the director",
+                              "the ",
+                              " along/across the director",
+                              {{"total_stress_ratio", "total stress"}, {"collision_stress_ratio", "collision stress"}}},
+                             {"wall pressure over the total stress along the walls' normal",
+                              "the pressure over the stress at the ",
+                              "",
+                              {{"wall_pressure_ratio", "container"},
+                               {"wall_pressure_x_ratio", "planes across x"},
+                               {"wall_pressure_y_ratio", "planes across y"},
+                               {"wall_pressure_z_ratio", "planes across z"}}}};
 
 jostle::ReadableUnit unit_in(const Json& entry, const jostle::Scene& scene) {
     return jostle::readable_unit(scene, entry.value("unit", ""));
@@ -56,10 +72,9 @@ std::string range_text(const Json& range) {
     return from == to ? from : from + " to " + to;
 }
 
-std::string text_of_checks(const Json& of_summary, const jostle::Scene& scene, bool withheld) {
-    if (of_summary.empty()) return "";
-    std::string text = "stress ratio along/across the director, measured and in equilibrium\n";
-    for (const auto& [key, name] : checks) {
+std::string text_of_checks(const Checks& checks, const Json& of_summary, const jostle::Scene& scene, bool withheld) {
+    std::string text;
+    for (const auto& [key, name] : checks.lines) {
         if (!of_summary.contains(key)) continue;
         const Json& check = of_summary[key];
         const std::string verdict = check["agree"].is_null()     ? ""
@@ -70,25 +85,35 @@ std::string text_of_checks(const Json& of_summary, const jostle::Scene& scene, b
                  fmt::format("{}, in equilibrium {}{}  {}", mean_text(check["measured"], scene),
                              range_text(check["in_equilibrium"]), verdict, support_text(check["measured"], withheld)));
     }
+    return text.empty() ? "" : fmt::format("{}, measured and in equilibrium\n{}", checks.ratio, text);
+}
+
+std::string warnings_of_checks(const Checks& checks, const Json& of_summary) {
+    std::string text;
+    for (const auto& [key, name] : checks.lines) {
+        if (!of_summary.contains(key) || of_summary[key]["agree"] != Json(false)) continue;
+        text += fmt::format(
+            "WARNING: {}{}{} differs from that of equilibrium by {:.3g} +- {:.2g}: the run "
+            "may be too short, its steps too long, or the box a bad fit to layers of rods, or no wider than a rod\n",
+            checks.before, name, checks.after, of_summary[key]["difference"].get<double>(),
+            of_summary[key]["standard_error"].get<double>());
+    }
     return text;
 }
 
-std::string warnings_of_checks(const Json& of_summary) {
-    std::string text;
-    for (const auto& [key, name] : checks) {
-        if (!of_summary.contains(key) || of_summary[key]["agree"] != Json(false)) continue;
-        text += fmt::format(
-            "WARNING: the {} along/across the director differs from that of equilibrium by {:.3g} +- {:.2g}: the run "
-            "may be too short, its steps too long, or the box a bad fit to layers of rods, or no wider than a rod\n",
-            name, of_summary[key]["difference"].get<double>(), of_summary[key]["standard_error"].get<double>());
-    }
-    return text;
+/// Between walls these are no pressures (theory, section 6).
+bool is_third_of_trace(std::string_view key) {
+    return key == "pressure" || key == "pressure_collision";
 }
 
 }  // namespace
 
 std::string summary_text(const Json& summary, const jostle::Scene& scene) {
     constexpr std::pair<const char*, const char*> averages[] = {{"Z", "Z"},
+                                                                {"wall_pressure", "wall pressure"},
+                                                                {"wall_pressure_x", "wall pressure x"},
+                                                                {"wall_pressure_y", "wall pressure y"},
+                                                                {"wall_pressure_z", "wall pressure z"},
                                                                 {"pressure", "pressure"},
                                                                 {"pressure_collision", "collision pressure"},
                                                                 {"pressure_springs", "pressure of springs"},
@@ -99,14 +124,17 @@ std::string summary_text(const Json& summary, const jostle::Scene& scene) {
     const Json& equilibrium = summary["equilibrium"];
     const bool withheld = equilibrium["verdict"] == "not reached" || equilibrium["verdict"] == "too short to tell";
     std::string text;
+    const bool walls = jostle::scene_walls(scene).any();
     for (const auto& [key, name] : averages)
-        if (summary.contains(key))
+        if (summary.contains(key) && !(walls && is_third_of_trace(key)))
             text += line(name, mean_text(summary[key], scene) + "  " + support_text(summary[key], withheld));
-    text += text_of_checks(summary["checks"], scene, withheld);
+    for (const Checks& checks : all_checks) text += text_of_checks(checks, summary["checks"], scene, withheld);
+    if (walls) text += line("principal stresses", principal_text(summary["principal_stresses"], scene) + "  (total)");
     text += line("principal stresses",
                  principal_text(summary["principal_stresses_collision"], scene) + "  (of collisions)");
     text += line("equilibration time", fmt::format("{:.4g}", summary["equilibration_time"].get<double>()));
     text += line("equilibrium", (withheld ? "WARNING: " : "") + equilibrium["in_words"].get<std::string>());
     text += line("largest overlap", fmt::format("{:.2e} D", summary["max_overlap"].get<double>()));
-    return text + warnings_of_checks(summary["checks"]);
+    for (const Checks& checks : all_checks) text += warnings_of_checks(checks, summary["checks"]);
+    return text;
 }

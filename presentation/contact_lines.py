@@ -42,7 +42,11 @@ def _of_frame(frame, rows):
     here = {name: values[there] for name, values in here.items()}
     i, j = i[there], j[there]
     normal = np.stack([here[f"normal_{axis}"] for axis in "xyz"], axis=1)
+    # A wall is on the side that the normal comes from; there i is j, and the line goes from the rod to the wall.
+    at_wall = here["wall"] >= 0 if "wall" in here else np.zeros(len(i), bool)
+    normal[at_wall] *= -1.0
     # Both ends as they were when the forces were found, at the begin of the step; the first rod's place is that at its end.
-    first = frame.centre[i] + here["arm_i"][:, None] * frame.axis[i]
-    length = 0.5 * (frame.diameter[i] + frame.diameter[j]) + here["gap"]
+    arm = np.where(at_wall, here["arm_j"], here["arm_i"])
+    first = frame.centre[i] + arm[:, None] * frame.axis[i]
+    length = 0.5 * (np.where(at_wall, 0.0, frame.diameter[i]) + frame.diameter[j]) + here["gap"]
     return first + 0.5 * length[:, None] * normal, normal, length, here["force"]

@@ -42,6 +42,7 @@ class _Table:
 class Scene:
     units: _Table
     box: _Table
+    walls: _Table
     rods: _Table
     fluid: _Table
     mobility: _Table

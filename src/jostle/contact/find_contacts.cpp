@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "jostle/contact/pair_contacts.hpp"
+#include "jostle/contact/wall_contacts.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
@@ -28,7 +29,8 @@ double find_contacts(const Rods& rods, const Box& box, const NeighbourList& neig
     });
     contacts.clear();
     contacts.append(blocks.size(), [&](std::size_t block) -> const Contacts& { return blocks[block]; });
-    return parallel_max(overlaps.size(), 0.0, [&](std::size_t block) { return overlaps[block]; });
+    const double with_walls = append_wall_contacts(rods, box, reach, contacts);
+    return parallel_max(overlaps.size(), with_walls, [&](std::size_t block) { return overlaps[block]; });
 }
 
 }  // namespace jostle

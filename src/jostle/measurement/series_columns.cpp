@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "jostle/measurement/wall_columns.hpp"
 #include "jostle/scene/scene_motion.hpp"
+#include "jostle/scene/scene_walls.hpp"
 #include "jostle/scene/units.hpp"
 #include "jostle/stress/orientation_stress.hpp"
 
@@ -34,7 +36,9 @@ void add_pressure_columns(const Scene& scene, Series& series) {
     columns.push_back(
         {{"Z", "1", "Z", "compressibility factor Pi/(n kT), mean over the steps since the last row", in_compression},
          [](const RowState& row) {
-             return row.kT > 0.0 ? compressibility(row.stress, row.density, row.kT) : std::nan("");
+             return row.kT > 0.0 && !row.simulation.box().walls().any()
+                        ? compressibility(row.stress, row.density, row.kT)
+                        : std::nan("");
          }});
     columns.push_back(
         {{"pressure", stress, "Pi", "Tr Sigma/3 " + parts + ", mean over the steps since the last row", in_compression},
@@ -160,6 +164,7 @@ TableColumns<RowState> series_columns(const Scene& scene) {
     add_stress_columns(scene, series);
     add_order_columns(series);
     add_contact_columns(scene, series);
+    if (scene_walls(scene).any()) add_wall_columns(scene, series);
     if (!scene.springs.file.empty()) add_spring_columns(scene, series);
     if (swims(scene)) add_active_columns(scene, series);
     if (scene.output.stress_conventions) add_convention_columns(scene, series);

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "jostle/scene/scene_walls.hpp"
 #include "jostle/scene/units.hpp"
 #include "jostle/stress/column_names.hpp"
 
@@ -46,6 +47,12 @@ TableColumns<ContactState> contact_columns(const Scene& scene) {
                              [](const Item& item) { return item.gap; }});
     table.add_elements(std::array{"normal_x", "normal_y", "normal_z"}, normal,
                        [](const Item& item, std::size_t k) { return item.contact.normal[static_cast<int>(k)]; });
+    if (scene_walls(scene).any())
+        table.columns.push_back({{"wall", "1", "",
+                                  "0, 1: lower, upper face across x; 2, 3: y; 4, 5: z; 6: sphere or tube; then id_i = "
+                                  "id_j, and the normal is from the wall to the rod; -1: no wall, two rods",
+                                  ""},
+                                 [](const Item& item) { return static_cast<double>(item.contact.wall); }});
     table.columns.push_back(
         {{"arm_i", length, "s_i", "position of the contact along the first rod's axis, from its centre", ""}, arm(0)});
     table.columns.push_back(

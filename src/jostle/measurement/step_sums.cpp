@@ -26,6 +26,7 @@ void for_each_sum(AnySums& sums, Visitor&& visit) {
     visit("spring_virial", sums.spring_virial);
     visit("centre_of_mass_virial", sums.centre_of_mass_virial);
     visit("centre_line_virial", sums.centre_line_virial);
+    visit("wall_force", sums.wall_force);
     visit("contacts", sums.contacts);
     visit("active_contacts", sums.active_contacts);
     visit("iterations", sums.iterations);
@@ -38,8 +39,10 @@ template <class Sum>
 auto numbers_of(Sum& sum) {
     if constexpr (std::is_same_v<std::remove_const_t<Sum>, Mat3>)
         return std::span(sum.m);
-    else
+    else if constexpr (std::is_floating_point_v<std::remove_const_t<Sum>>)
         return std::span(&sum, 1);
+    else
+        return std::span(sum);
 }
 
 }  // namespace
@@ -51,6 +54,7 @@ void StepSums::add(const StepReport& report) {
     spring_virial += report.spring_virial;
     centre_of_mass_virial += report.centre_of_mass_virial;
     centre_line_virial += report.centre_line_virial;
+    for (std::size_t wall = 0; wall < max_walls; ++wall) wall_force[wall] += report.wall_force[wall];
     contacts += static_cast<double>(report.contacts);
     active_contacts += static_cast<double>(report.active_contacts);
     iterations += static_cast<double>(report.iterations);

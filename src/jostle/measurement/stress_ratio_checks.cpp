@@ -43,7 +43,7 @@ struct RatioRange {
 };
 
 /// `error` of the difference between the two, which agree within `limit` of it.
-Json ratio_check(const char* definition, const Estimate& measured, const RatioRange& in_equilibrium,
+Json ratio_check(const std::string& definition, const Estimate& measured, const RatioRange& in_equilibrium,
                  const std::optional<double>& error, double limit) {
     const double difference = measured.value - std::clamp(measured.value, in_equilibrium.from,
                                                           std::max(in_equilibrium.from, in_equilibrium.to));
@@ -63,6 +63,10 @@ MeanDirector mean_director(const Columns& order) {
     for (std::size_t k = 0; k < 6; ++k) mean[k] = column_mean(order[k]);
     const auto eigen = symmetric_eigen(order_of(mean));
     return {eigen.vectors[2], eigen.values[2]};
+}
+
+Json check_of_one(const std::string& definition, const Estimate& measured) {
+    return ratio_check(definition, measured, {1.0, 1.0}, measured.standard_error, agreement);
 }
 
 Json total_stress_ratio_check(const Columns& stress, const Columns& order) {

@@ -17,6 +17,9 @@ struct MeanDirector {
 /// Largest eigenvalue of the mean order tensor, and its eigenvector. `order`: the six columns of the order tensor.
 MeanDirector mean_director(const Columns& order);
 
+/// A ratio beside what it is in equilibrium, 1.
+nlohmann::ordered_json check_of_one(const std::string& definition, const Estimate& measured);
+
 /// The whole stress along the mean director over that across it, and what equilibrium has: 1 (theory, eq. 1.21).
 /// `stress`, `order`: columns of the whole stress and of the order tensor.
 nlohmann::ordered_json total_stress_ratio_check(const Columns& stress, const Columns& order);

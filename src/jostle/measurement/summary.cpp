@@ -12,6 +12,7 @@
 #include "jostle/measurement/stress_columns.hpp"
 #include "jostle/measurement/stress_ratio_checks.hpp"
 #include "jostle/measurement/summary_entries.hpp"
+#include "jostle/measurement/wall_columns.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/run_files/version.hpp"
 #include "jostle/scene/rod_size.hpp"
@@ -161,7 +162,10 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     summary["steps"] = simulation.clock().step;
     summary["time"] = simulation.clock().time;
     summary["time_step"] = simulation.settings().time_step;
-    if (thermal) summary["Z"] = described(average_of("Z"), "");
+    const Walls& walls = simulation.box().walls();
+    if (thermal && !walls.any()) summary["Z"] = described(average_of("Z"), "");
+    for (const WallGroup& group : wall_groups(walls))
+        summary[group.column] = described(average_of(group.column.c_str()), stress_unit);
     summary["pressure"] = described(average_of("pressure"), stress_unit);
     summary["pressure_collision"] = described(average_of("pressure_collision"), stress_unit);
     summary["stress"] = tensor_entry(stress, stress_unit);
@@ -206,7 +210,11 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     const bool in_equilibrium = simulation.keeps_equilibrium() && !springs && !ramped;
     if (in_equilibrium && simulation.box().is_periodic())
         checks["total_stress_ratio"] = total_stress_ratio_check(stress, order);
-    if (in_equilibrium && all_alike(rods))
+    for (const WallGroup& group : wall_groups(walls))
+        if (in_equilibrium)
+            checks[group.column + "_ratio"] =
+                wall_pressure_check(group, walls, stress, from_row(series.column(group.column), first));
+    if (in_equilibrium && all_alike(rods) && !walls.any())
         checks["collision_stress_ratio"] = collision_stress_ratio_check(
             collision, order, from_row(series.column("Z"), first), rods.length.front() / rods.diameter.front());
     summary["checks"] = checks;

@@ -4,24 +4,28 @@
 #include <array>
 
 #include "jostle/rods/rods.hpp"
+#include "jostle/rods/walls.hpp"
 
 namespace jostle {
 
-/// A rectangular box with one corner at the origin, periodic or open along each direction. A box of another size is
-/// another box.
+/// A rectangular box with one corner at the origin, periodic, open or closed by walls along each direction. A box of
+/// another size is another box.
 ///
 /// Open means without walls: rods may leave; the edge then only defines the volume that phi and n refer to.
 class Box {
 public:
     constexpr Box() = default;
-    constexpr Box(const Vec3& edges, const std::array<bool, 3>& periodic = {true, true, true})
-        : edges_(edges), periodic_(periodic) {}
+    /// It is not to be periodic across walls.
+    constexpr Box(const Vec3& edges, const std::array<bool, 3>& periodic = {true, true, true}, const Walls& walls = {})
+        : edges_(edges), periodic_(periodic), walls_(walls) {}
 
     const Vec3& edges() const { return edges_; }
     const std::array<bool, 3>& periodic() const { return periodic_; }
+    const Walls& walls() const { return walls_; }
     bool is_periodic() const { return periodic_[0] && periodic_[1] && periodic_[2]; }
 
-    double volume() const { return edges_.x * edges_.y * edges_.z; }
+    /// Between the walls.
+    double volume() const { return share_of_box(walls_.container) * (edges_.x * edges_.y * edges_.z); }
     double longest_edge() const { return std::max({edges_.x, edges_.y, edges_.z}); }
 
     /// The point that lies at these parts of the edges, 0 to 1 within the box.
@@ -38,6 +42,7 @@ public:
 private:
     Vec3 edges_{1, 1, 1};
     std::array<bool, 3> periodic_{true, true, true};
+    Walls walls_{};
 };
 
 }  // namespace jostle

@@ -118,8 +118,30 @@ std::vector<PreviousForce> take_forces(FieldReader& reader) {
                                      [](PreviousForce& of, std::uint8_t value) { of.upper = value != 0; });
     reader.take_column<double>("forces.gamma", forces, [](PreviousForce& of, double value) { of.gamma = value; });
     for (const PreviousForce& force : forces)
-        if (force.i > force.j) throw std::out_of_range("a contact force that is none");
+        if (force.i > force.j && !is_id_of_fixed(force.i)) throw std::out_of_range("a contact force that is none");
     return forces;
+}
+
+void put_walls(FieldWriter& writer, const Walls& walls) {
+    if (!walls.any()) return;
+    writer.put("walls.faces", std::array<std::uint8_t, 3>{walls.faces[0], walls.faces[1], walls.faces[2]});
+    writer.put("walls.container", static_cast<std::uint8_t>(walls.container));
+    writer.put("walls.axis", static_cast<std::uint8_t>(walls.axis));
+    writer.put("walls.turn_rods", static_cast<std::uint8_t>(walls.turn_rods));
+}
+
+Walls take_walls(FieldReader& reader) {
+    Walls walls;
+    if (reader.names_after("walls.").empty()) return walls;
+    const auto faces = reader.take<std::array<std::uint8_t, 3>>("walls.faces");
+    for (std::size_t k = 0; k < 3; ++k) walls.faces[k] = faces[k] != 0;
+    const auto container = reader.take<std::uint8_t>("walls.container"), axis = reader.take<std::uint8_t>("walls.axis");
+    if (container > static_cast<std::uint8_t>(Container::tube) || axis > 2)
+        throw std::out_of_range("walls that are none");
+    walls.container = static_cast<Container>(container);
+    walls.axis = axis;
+    walls.turn_rods = reader.take<std::uint8_t>("walls.turn_rods") != 0;
+    return walls;
 }
 
 FieldWriter fields_of(const Checkpoint& checkpoint) {
@@ -131,6 +153,7 @@ FieldWriter fields_of(const Checkpoint& checkpoint) {
     std::array<std::uint8_t, 3> periodic{};
     std::copy(checkpoint.state.box.periodic().begin(), checkpoint.state.box.periodic().end(), periodic.begin());
     writer.put("box.periodic", periodic);
+    put_walls(writer, checkpoint.state.box.walls());
     put_rods(writer, checkpoint.state.rods);
     put_springs(writer, checkpoint.state.springs);
     put_forces(writer, checkpoint.state.previous_forces);
@@ -148,7 +171,7 @@ Checkpoint from_fields(std::string_view payload) {
     checkpoint.state.clock.time = reader.take<double>("time");
     const Vec3 edges = reader.take<Vec3>("box.edges");
     const auto periodic = reader.take<std::array<std::uint8_t, 3>>("box.periodic");
-    checkpoint.state.box = Box(edges, {periodic[0] != 0, periodic[1] != 0, periodic[2] != 0});
+    checkpoint.state.box = Box(edges, {periodic[0] != 0, periodic[1] != 0, periodic[2] != 0}, take_walls(reader));
     checkpoint.state.rods = take_rods(reader);
     checkpoint.state.springs = take_springs(reader);
     checkpoint.state.previous_forces = take_forces(reader);

@@ -8,6 +8,7 @@
 #include "jostle/contact_problem/solver_method.hpp"
 #include "jostle/growth/growth_law.hpp"
 #include "jostle/math/vec3.hpp"
+#include "jostle/rods/walls.hpp"
 #include "jostle/scene/ramp.hpp"
 
 namespace jostle {
@@ -20,6 +21,7 @@ enum class WarmStarts { automatic, always, never };
 enum class StepRule { bb1, bb2, alternating };
 enum class ResidualKind { length, paper };
 enum class FrameTimes { even, logarithmic };
+enum class Direction { x, y, z };
 
 /// A scene: everything that the user decides. Member names are the keys of the TOML file; one struct a table.
 ///
@@ -41,6 +43,14 @@ struct Scene {
         std::array<bool, 3> periodic{true, true, true};
         bool operator==(const BoxTable&) const = default;
     } box;
+
+    struct WallsTable {
+        std::array<bool, 3> faces{false, false, false};  // planes at both faces of the box across x, y, z
+        Container container = Container::none;           // "sphere", "tube": rods are inside, and the box bounds it
+        Direction axis = Direction::x;                   // of the tube
+        bool torque = true;                              // false: walls push at a rod's centre
+        bool operator==(const WallsTable&) const = default;
+    } walls;
 
     struct RodsTable {
         std::uint64_t count = 0;          // with start = "file": 0, as many as the file holds

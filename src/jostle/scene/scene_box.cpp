@@ -21,14 +21,14 @@ double rods_volume(const Scene& scene) {
 Vec3 box_edges(const Scene& scene, double rods_volume) {
     if (scene.box.edges) return *scene.box.edges;
     const Vec3& shape = scene.box.shape;
-    const double volume = rods_volume / scene.box.volume_fraction.value();
+    const double volume = rods_volume / (share_of_box(scene.walls.container) * scene.box.volume_fraction.value());
     return std::cbrt(volume / (shape.x * shape.y * shape.z)) * shape;
 }
 
 double volume_fraction(const Scene& scene, double rods_volume) {
     if (scene.box.volume_fraction) return *scene.box.volume_fraction;
     const Vec3& edges = scene.box.edges.value();
-    return rods_volume / (edges.x * edges.y * edges.z);
+    return rods_volume / (share_of_box(scene.walls.container) * (edges.x * edges.y * edges.z));
 }
 
 Vec3 box_edges(const Scene& scene) {

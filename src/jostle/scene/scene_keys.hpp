@@ -69,6 +69,10 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("box", "shape", scene.box.shape, Quantity{dim::none, {1e-6, 1e6}});
     visit("box", "edges", scene.box.edges, Quantity{dim::length, positive});
     visit("box", "periodic", scene.box.periodic, Plain{});
+    visit("walls", "faces", scene.walls.faces, Plain{});
+    visit("walls", "container", scene.walls.container, Plain{});
+    visit("walls", "axis", scene.walls.axis, Plain{});
+    visit("walls", "torque", scene.walls.torque, Plain{});
     visit("rods", "count", scene.rods.count, Count{1, (std::uint64_t{1} << 31) - 1});
     visit("rods", "length", scene.rods.length, Quantity{dim::length, zero_or_positive_length});
     visit("rods", "diameter", scene.rods.diameter, Quantity{dim::length, positive_length});
@@ -187,6 +191,14 @@ constexpr auto words(StepRule) {
 constexpr auto words(ResidualKind) {
     return std::to_array<std::pair<std::string_view, ResidualKind>>(
         {{"length", ResidualKind::length}, {"paper", ResidualKind::paper}});
+}
+constexpr auto words(Container) {
+    return std::to_array<std::pair<std::string_view, Container>>(
+        {{"none", Container::none}, {"sphere", Container::sphere}, {"tube", Container::tube}});
+}
+constexpr auto words(Direction) {
+    return std::to_array<std::pair<std::string_view, Direction>>(
+        {{"x", Direction::x}, {"y", Direction::y}, {"z", Direction::z}});
 }
 constexpr auto words(FrameTimes) {
     return std::to_array<std::pair<std::string_view, FrameTimes>>(

@@ -36,6 +36,8 @@ constexpr double automatic_squeeze = 0.01, advised_squeeze = 0.03, largest_squee
 constexpr double high_energy = 5.0;
 /// Of the angle by which its own images let a rod be inclined.
 constexpr double automatic_turn = 0.5, largest_turn = 1.0;
+/// Of the free room between opposite walls, that noise moves the end of a rod by in a step.
+constexpr double automatic_step_between_walls = 0.2, largest_step_between_walls = 1.0 / 3.0;
 
 void append(std::vector<StepLimit>& limits, std::vector<StepLimit> more) {
     limits.insert(limits.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
@@ -124,26 +126,31 @@ std::vector<StepLimit> image_limits(const Scene& scene, const Box& box, const Ro
     return {limit};
 }
 
-/// How fast the box brings rods together that touch, end to end, as its schedule has it at the fastest.
+/// How fast the box brings rods together that touch, end to end, or a plane comes towards them, as its schedule has it
+/// at the fastest.
 std::vector<StepLimit> squeeze_limits(const Scene& scene, const Rods& rods) {
     const double volume = volume_of_all(scene, rods);
     RampPoint<Vec3> from{0.0, box_edges(scene, volume)};
-    double strain_rate = 0.0, slenderest = 0.0;
+    double strain_rate = 0.0, slenderest = 0.0, of_planes = 0.0;
     for (const RampPoint<Vec3>& to : ramp_of_edges(scene, volume)) {
-        for (int k = 0; k < 3; ++k)
-            strain_rate = std::max(strain_rate, (from.value[k] - to.value[k]) / (to.time - from.time) / to.value[k]);
+        for (int k = 0; k < 3; ++k) {
+            const double rate = (from.value[k] - to.value[k]) / (to.time - from.time);
+            double& fastest = scene.walls.faces[static_cast<std::size_t>(k)] ? of_planes : strain_rate;
+            fastest = std::max(fastest, &fastest == &of_planes ? rate : rate / to.value[k]);
+        }
         from = to;
     }
     for (std::size_t i = 0; i < rods.size(); ++i)
         slenderest = std::max(slenderest, (rods.length[i] + rods.diameter[i]) / rods.diameter[i]);
-    if (strain_rate == 0.0) return {};
+    const double rate = std::max(strain_rate * slenderest, of_planes / smallest_diameter(scene, rods));
+    if (rate == 0.0) return {};
     return {{.key = key_of_box_ramp(scene),
              .value = "",
              .harm = "closes gaps so far that contacts cannot follow",
-             .what = "the box brings rods that touch nearer by",
+             .what = "the box, or a plane, brings what touches nearer by",
              .unit = "D",
              .remedy = "a slower ramp",
-             .rate = strain_rate * slenderest,
+             .rate = rate,
              .automatic = automatic_squeeze,
              .advised = advised_squeeze,
              .largest = largest_squeeze}};
@@ -156,7 +163,35 @@ Box narrowest(const Scene& scene, const Box& box, const Rods& rods) {
     Vec3 edges = box_edges(scene, volume);
     for (const RampPoint<Vec3>& point : ramp_of_edges(scene, volume))
         for (int k = 0; k < 3; ++k) edges[k] = std::min(edges[k], point.value[k]);
-    return {edges, box.periodic()};
+    return {edges, box.periodic(), box.walls()};
+}
+
+/// Where noise moves the end of a rod along a wall farther in a step than a third of the room between opposite walls,
+/// the shifts of both find no room (theory, section 6).
+std::vector<StepLimit> wall_limits(const Scene& scene, const Box& box, const Rods& rods,
+                                   const MobilityOperator& mobility) {
+    const double kT = thermal_energy(scene);
+    if (!box.walls().any() || !scene.contact.brownian_correction || kT == 0.0) return {};
+    double narrowest = INFINITY;
+    for (int k = 0; k < 3; ++k)
+        if (!box.periodic()[static_cast<std::size_t>(k)]) narrowest = std::min(narrowest, box.edges()[k]);
+    StepLimit limit = {.key = scene.box.edges ? "box.edges" : "box.volume_fraction",
+                       .value = scene.box.edges ? text(box.edges()) : text(*scene.box.volume_fraction),
+                       .harm = "leaves too little room between walls",
+                       .what = "noise moves the end of a rod, over the room between opposite walls less a diameter, by",
+                       .unit = "",
+                       .remedy = "a wider box",
+                       .diffusive = true,
+                       .automatic = automatic_step_between_walls,
+                       .advised = largest_step_between_walls,
+                       .largest = largest_step_between_walls};
+    for (std::size_t i = 0; i < rods.size(); ++i) {
+        const RodMobility rod = mobility.of_rod(i);
+        const double half = box.walls().turn_rods ? 0.5 * rods.length[i] : 0.0, room = narrowest - rods.diameter[i];
+        limit.rate =
+            std::max(limit.rate, 2.0 * kT * (rod.perpendicular + half * half * rod.rotational) / (room * room));
+    }
+    return {limit};
 }
 
 /// Thinner than any cell is but for one in a thousand; a function of the scene alone.
@@ -224,6 +259,7 @@ std::vector<StepLimit> step_limits(const Scene& scene, const Mobility& model, co
     const Scene hardest = scene_at_its_hardest(scene);
     std::vector<StepLimit> limits = free_step_limits(scene, model, box, rods);
     append(limits, image_limits(hardest, narrowest(scene, box, rods), rods, *mobility));
+    append(limits, wall_limits(hardest, narrowest(scene, box, rods), rods, *mobility));
     if (squeezes_box(scene)) append(limits, squeeze_limits(scene, rods));
     if (scene.contact.model == ContactModel::wca) limits.push_back(potential_limit(hardest, rods, *mobility));
     if (!springs.empty()) limits.push_back(spring_limit(scene, springs, rods, *mobility));
@@ -238,6 +274,7 @@ std::vector<StepLimit> lasting_step_limits(const Scene& scene, const Mobility& m
     append(limits, growth_limits(scene, diameter));
     const Scene hardest = scene_at_its_hardest(scene);
     append(limits, image_limits(hardest, box, cells, *mobility));
+    append(limits, wall_limits(hardest, box, cells, *mobility));
     if (scene.contact.model == ContactModel::wca) limits.push_back(potential_limit(hardest, cells, *mobility));
     return limits;
 }

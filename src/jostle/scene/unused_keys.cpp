@@ -7,6 +7,7 @@
 #include "jostle/scene/mistakes.hpp"
 #include "jostle/scene/scene_keys.hpp"
 #include "jostle/scene/scene_motion.hpp"
+#include "jostle/scene/scene_walls.hpp"
 
 namespace jostle {
 
@@ -30,6 +31,10 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
     if (start != StartKind::file) unused.push_back({"rods.file", with, "Set start = \"file\", or remove file"});
     if (start != StartKind::aligned && start != StartKind::lattice)
         unused.push_back({"rods.axis", with, "Set start = \"aligned\", or remove axis"});
+    if (scene.walls.container != Container::tube)
+        unused.push_back({"walls.axis", "is not used without a tube", "Set container = \"tube\", or remove axis"});
+    if (!scene_walls(scene).any())
+        unused.push_back({"walls.torque", "is not used without walls", "Set faces or container, or remove torque"});
     if (!swims(scene))
         for (const char* key : {"motion.self_propulsion_deviation", "motion.tumble_rate", "motion.tumble_time",
                                 "motion.reversal_rate", "output.active_stress_lag"})

@@ -17,6 +17,7 @@
 #include "jostle/scene/scene_mobility.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/scene_ranges.hpp"
+#include "jostle/scene/scene_walls.hpp"
 #include "jostle/scene/schedule.hpp"
 #include "jostle/scene/step_limits.hpp"
 #include "jostle/scene/time_step.hpp"
@@ -113,6 +114,7 @@ void check_room(const Scene& scene) {
     check_deviations(scene);
     check_packing(scene);
     validate_box(scene, rods_volume(scene), largest_diameter(scene));
+    validate_walls(scene, rods_volume(scene), largest_length(scene), largest_diameter(scene));
     check_packing_of_schedule(scene);
 }
 
@@ -133,10 +135,10 @@ void check_schedule(const Scene& scene) {
         refuse(key, "", "changes the box, and with growth.rate cells change what fills it", "one of the two, not both",
                "Remove [growth], or the key");
     for (std::size_t k = 0; k < 3; ++k)
-        if (!scene.box.periodic[k] && squeezes_edge(scene, static_cast<int>(k)))
+        if (!scene.box.periodic[k] && !scene.walls.faces[k] && squeezes_edge(scene, static_cast<int>(k)))
             refuse(key, "",
                    fmt::format("changes edge {}, along which the box is open: nothing holds the rods", "xyz"[k]),
-                   "edges along which the box is periodic",
+                   "edges along which the box is periodic, or ends at planes (walls.faces)",
                    "Keep that edge as box.edges has it, or make the box periodic along it");
 }
 

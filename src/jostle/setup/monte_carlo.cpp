@@ -40,7 +40,12 @@ MonteCarlo::Moves& MonteCarlo::Moves::operator+=(const Moves& other) {
 }
 
 MonteCarlo::MonteCarlo(Rods& rods, const Box& box, std::uint64_t seed)
-    : rods_(rods), box_(box), seed_(seed), grid_(rods, box, longest_of(rods)), cells_(grid_, box, longest_of(rods)) {
+    : rods_(rods),
+      box_(box),
+      seed_(seed),
+      walls_(walls_of(box)),
+      grid_(rods, box, longest_of(rods)),
+      cells_(grid_, box, longest_of(rods)) {
     cells_.fill(rods_);
     count_overlaps();
 }
@@ -126,8 +131,15 @@ MonteCarlo::Trial MonteCarlo::shift(std::uint32_t row, std::uint32_t draw) const
     return {rods_.centre[row], normalised(axis + up_to(reach) / reach * anywhere)};
 }
 
-/// Whether a rod would leave its domain, or an open box, or get farther away from that.
-bool MonteCarlo::leads_out(std::uint32_t row, const Vec3& centre, const Site& site) const {
+/// Whether a rod would leave its domain, or an open box or a wall, or get farther away from that.
+bool MonteCarlo::leads_out(std::uint32_t row, const Trial& trial, const Site& site) const {
+    const Vec3& centre = trial.centre;
+    const auto beyond_walls = [&](const Vec3& at, const Vec3& axis) {
+        return std::max(0.0,
+                        overlap_with_walls(walls_, box_.walls(), at, axis, rods_.length[row], rods_.diameter[row]));
+    };
+    if (!walls_.empty() && beyond_walls(centre, trial.axis) > beyond_walls(rods_.centre[row], rods_.axis[row]))
+        return true;
     for (int k = 0; k < 3; ++k) {
         if (box_.periodic()[static_cast<std::size_t>(k)]) continue;
         const auto outside = [&](double x) { return std::max({0.0, -x, x - box_.edges()[k]}); };
@@ -139,7 +151,7 @@ bool MonteCarlo::leads_out(std::uint32_t row, const Vec3& centre, const Site& si
 bool MonteCarlo::try_out(std::uint32_t row, Trial trial, double uniform, Site& site) {
     Image crossed{0, 0, 0};
     box_.wrap(trial.centre, crossed);
-    if (leads_out(row, trial.centre, site)) return false;
+    if (leads_out(row, trial, site)) return false;
     constexpr double many = 1e6;
     const double bought = std::min(many, std::floor(-std::log(uniform) / site.price));
     const std::size_t most = overlaps_[row] + static_cast<std::size_t>(bought);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "jostle/contact/cell_grid.hpp"
+#include "jostle/rods/wall.hpp"
 #include "jostle/setup/cell_domains.hpp"
 #include "jostle/setup/movable_cells.hpp"
 
@@ -14,7 +15,7 @@ namespace jostle {
 ///
 /// At a price of a few kT rods are nearly as hard ones are, yet get past each other, which long hard ones in a crowd do
 /// not (docs/decisions/0029-annealed-starts.md). They are moved by small steps, and put down anywhere near by. An open
-/// box holds their centres like walls. The same bits for any number of threads.
+/// box holds their centres like walls, and walls hold the rods. The same bits for any number of threads.
 class MonteCarlo {
 public:
     /// `rods` (all that moves) and `box` must outlive this.
@@ -50,7 +51,7 @@ private:
     Moves move_rods_of(Site site, std::span<const std::uint32_t> rows, int placings);
     Trial placing(std::uint32_t row, std::uint32_t draw, const Site& site) const;
     Trial shift(std::uint32_t row, std::uint32_t draw) const;
-    bool leads_out(std::uint32_t row, const Vec3& centre, const Site& site) const;
+    bool leads_out(std::uint32_t row, const Trial& trial, const Site& site) const;
     bool try_out(std::uint32_t row, Trial trial, double uniform, Site& site);
     bool find_partners(std::uint32_t row, const Trial& trial, std::size_t most,
                        std::vector<std::uint32_t>& partners) const;
@@ -60,6 +61,7 @@ private:
     Rods& rods_;
     const Box& box_;
     std::uint64_t seed_, sweeps_ = 0;
+    std::vector<Wall> walls_;
     CellGrid grid_;
     MovableCells cells_;
     std::vector<std::uint32_t> overlaps_;  ///< (N) pairs that a rod overlaps in

@@ -10,6 +10,7 @@
 #include "jostle/math/random_direction.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/rods/space_filling_order.hpp"
+#include "jostle/rods/wall.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/setup/movable_cells.hpp"
 
@@ -31,17 +32,21 @@ void sort_by_cell(Rows& rows, const Rods& rods, const CellGrid& grid) {
     parallel_for(rows.size(), [&](std::size_t k) { rows[k] = static_cast<std::uint32_t>(keys[k]); });
 }
 
-/// Of the rods just drawn, those that overlap their own image, one that stays, or one just drawn with a lower id.
-Rows rows_to_draw_again(const Rods& rods, const MovableCells& cells, const Rows& drawn) {
+/// Of the rods just drawn, those that overlap a wall, their own image, one that stays, or one just drawn with a lower
+/// id.
+Rows rows_to_draw_again(const Rods& rods, const Box& box, const MovableCells& cells, const Rows& drawn) {
+    const std::vector<Wall> walls = walls_of(box);
     std::vector<std::uint8_t> stays(rods.size(), 1), again(drawn.size());
     for (const std::uint32_t row : drawn) stays[row] = 0;
     parallel_for(drawn.size(), [&](std::size_t k) {
         const std::uint32_t row = drawn[k];
-        again[k] = cells.any_near(rods.centre[row], [&](std::uint32_t other, const Vec3& displacement) {
-            if (other == row && squared_norm(displacement) == 0.0) return false;
-            const bool gives_way = !stays[other] && rods.id[other] > rods.id[row];
-            return !gives_way && pair_overlaps(pair_geometry(rods, row, other, displacement, rods.centre, rods.axis));
-        });
+        again[k] = overlap_with_walls(walls, box.walls(), rods, row) > 0.0 ||
+                   cells.any_near(rods.centre[row], [&](std::uint32_t other, const Vec3& displacement) {
+                       if (other == row && squared_norm(displacement) == 0.0) return false;
+                       const bool gives_way = !stays[other] && rods.id[other] > rods.id[row];
+                       return !gives_way &&
+                              pair_overlaps(pair_geometry(rods, row, other, displacement, rods.centre, rods.axis));
+                   });
     });
     Rows rows;
     for (std::size_t k = 0; k < drawn.size(); ++k)
@@ -90,7 +95,7 @@ Rods scattered_rods(const Scene& scene, const Box& box, const std::optional<Vec3
     const auto max_few = static_cast<std::size_t>(few * static_cast<double>(rods.size()));
     for (std::uint32_t draw = 1;; ++draw) {
         sort_by_cell(again, rods, grid);
-        again = rows_to_draw_again(rods, cells, again);
+        again = rows_to_draw_again(rods, box, cells, again);
         if (again.empty() || draw >= (again.size() <= max_few ? max_draws_of_few : max_draws)) break;
         for (const std::uint32_t row : again) cells.take_out(row, rods.centre[row]);
         draw_places(again, draw);

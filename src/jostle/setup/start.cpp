@@ -8,6 +8,7 @@
 #include "jostle/error/input_error.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/rods/space_filling_order.hpp"
+#include "jostle/rods/wall.hpp"
 #include "jostle/scene/scene_box.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/setup/largest_overlap.hpp"
@@ -119,12 +120,27 @@ Rods rods_in_rows(const Scene& scene, const Box& box) {
     return rods;
 }
 
+/// Refuses rods that reach beyond a wall by more than `allowed`.
+void require_inside(const Rods& rods, const Box& box, double allowed, const char* key, const std::string& name) {
+    const std::vector<Wall> walls = walls_of(box);
+    for (std::size_t i = 0; i < rods.size(); ++i)
+        if (const double beyond = overlap_with_walls(walls, box.walls(), rods, i); beyond > allowed)
+            throw InputError(
+                {.key = key,
+                 .value = "\"" + name + "\"",
+                 .problem = fmt::format(
+                     "rod {} (row {}) reaches beyond a wall by {:.3g}: its centre is ({:.6g}, {:.6g}, {:.6g})",
+                     rods.id[i], i + 1, beyond, rods.centre[i].x, rods.centre[i].y, rods.centre[i].z),
+                 .allowed = fmt::format("at most {:.3g}", allowed)});
+}
+
 Rods checked(Rods rods, const Box& box, const Scene& scene) {
     for (std::size_t i = 0; i < rods.size(); ++i) box.wrap(rods.centre[i], rods.image[i]);
     rods.image.assign(rods.size(), Image{0, 0, 0});
-    const double overlap = largest_overlap(rods, box);
     const bool of_run = scene.rods.start == StartKind::run;
     const double allowed = (of_run ? scene.contact.overlap_limit : file_overlap) * scene.rods.diameter;
+    require_inside(rods, box, allowed, of_run ? "rods.run" : "rods.file", of_run ? scene.rods.run : scene.rods.file);
+    const double overlap = largest_overlap(rods, box);
     if (overlap > allowed)
         throw InputError(
             {.key = of_run ? "rods.run" : "rods.file",

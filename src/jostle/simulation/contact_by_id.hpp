@@ -7,11 +7,12 @@
 
 namespace jostle {
 
-/// A contact as files and Python have it: by the ids of its rods, the smaller one first, or a fixed body and a rod.
+/// A contact as files and Python have it: by the ids of its rods, the smaller one first, or of its one rod twice.
 struct ContactById {
-    std::array<std::uint64_t, 2> id;  ///< `id_of_body`
-    Image image;                      ///< of the second rod
-    Vec3 normal;                      ///< from the first to the second
+    std::array<std::uint64_t, 2> id;
+    int wall;     ///< number of the wall that the rod meets (rods/wall.hpp); -1: none
+    Image image;  ///< of the second rod
+    Vec3 normal;  ///< from the first to the second, or from the wall
     std::array<double, 2> arm;
 };
 
@@ -20,7 +21,12 @@ inline ContactById contact_by_id(const Simulation& simulation, std::size_t l) {
     const Contact& contact = simulation.contacts().contact[l];
     const Image& image = simulation.contacts().image[l];
     const std::vector<std::uint64_t>& ids = simulation.contact_ids();
-    return {{id_of_body(contact.i, ids), ids[contact.j]}, image, contact.normal, {contact.arm_i, contact.arm_j}};
+    const bool wall = is_fixed(contact.i);
+    return {{ids[wall ? contact.j : contact.i], ids[contact.j]},
+            wall ? static_cast<int>(number_of_fixed(contact.i)) : -1,
+            image,
+            contact.normal,
+            {contact.arm_i, contact.arm_j}};
 }
 
 }  // namespace jostle

@@ -1,10 +1,12 @@
 // One step of the simulation, in the order of docs/theory: read `step`, then the functions that it calls.
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <utility>
 
 #include "jostle/contact/relinearised_contacts.hpp"
+#include "jostle/contact/wall_contacts.hpp"
 #include "jostle/contact/wca_forces.hpp"
 #include "jostle/contact_problem/contact_solver.hpp"
 #include "jostle/contact_problem/previous_forces.hpp"
@@ -64,8 +66,11 @@ public:
         if (!edges) return;
         box_before_ = state.box;
         centre_before_ = state.rods.centre;
-        for (int k = 0; k < 3; ++k) stretch_[k] = (*edges)[k] / box_before_.edges()[k];
-        state.box = Box(*edges, box_before_.periodic());
+        for (std::size_t k = 0; k < 3; ++k)
+            if (const auto direction = static_cast<int>(k);
+                box_before_.periodic()[k])  // else a plane moves, and no rod
+                stretch_[direction] = (*edges)[direction] / box_before_.edges()[direction];
+        state.box = Box(*edges, box_before_.periodic(), box_before_.walls());
         parallel_for(state.rods.size(), [&](std::size_t i) {
             for (int k = 0; k < 3; ++k) state.rods.centre[i][k] *= stretch_[k];
         });
@@ -118,6 +123,7 @@ StepReport Simulation::step() {
     Contacts found = std::move(contacts_);
     ids_before_.clear();
     report.max_overlap = search_.find(geometry, found);  // 2  contacts
+    report.max_overlap = std::max(report.max_overlap, wall_search_.find(geometry, found));
     timer.finish(StepPhase::find_contacts);
 
     ContactProblem problem = posed_problem(*mobility, std::move(found));  // 3  A, b; gamma
@@ -161,6 +167,7 @@ ContactSolution Simulation::resolved(ContactProblem& problem, const StepGeometry
         if (solver->at_solution() && relinearisations-- > 0) more = relinearised(problem, end);
         const auto violated = search_.violated_pairs(geometry, problem.contacts(), end, solver->at_solution());
         more.append(search_.activate(violated, geometry));
+        more.append(wall_search_.violated(geometry, end));
         if (more.size() > 0) problem.append(more, gap_velocities(more));
     }
     const SolverOutcome& outcome = solver->outcome();
@@ -226,8 +233,9 @@ EndConfiguration Simulation::end_configuration(const ContactMatrix& contact_matr
 Contacts Simulation::relinearised(const ContactProblem& problem, const EndConfiguration& end) const {
     // Beyond what the solver may leave.
     const double tolerance = settings_.lcp.residual == LcpResidual::length ? settings_.lcp.tolerance : 0.0;
-    Contacts contacts = relinearised_contacts(problem.contacts(), state_.box, end,
-                                              max_overlap_of_turning * sizes_.mean_diameter + tolerance);
+    const double max_overlap = max_overlap_of_turning * sizes_.mean_diameter + tolerance;
+    Contacts contacts = relinearised_contacts(problem.contacts(), state_.box, end, max_overlap);
+    contacts.append(relinearised_wall_contacts(problem.contacts(), state_.box, end, max_overlap));
     for (Contact& contact : contacts.contact)
         contact.shifted_gap -=
             settings_.time_step * gap_rate(contact, end.velocity_of(contact.i), end.velocity_of(contact.j));

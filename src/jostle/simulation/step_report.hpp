@@ -5,6 +5,7 @@
 
 #include "jostle/lcp/lcp_problem.hpp"
 #include "jostle/math/mat3.hpp"
+#include "jostle/rods/wall.hpp"
 
 namespace jostle {
 
@@ -26,10 +27,12 @@ struct StepReport {
     std::uint64_t solves = 0;      ///< 1, or more where collisions reached beyond the first set of contacts
     std::size_t contacts = 0;
     std::size_t active_contacts = 0;  ///< with gamma > 0
-    double max_overlap = 0.0;         ///< largest of two rods when the step began, after growth and squeezing; a length
-    Vec3 stretch{1, 1, 1};            ///< of the box in the step, and of the centres with it: edges after over before
-    Mat3 collision_virial;            ///< sum over contacts of theory, eq. (1.1): V times the collision stress
-    Mat3 spring_virial;               ///< the same of springs (theory, eq. 1.16); 0 where there are none
+    double max_overlap = 0.0;  ///< largest of two rods, or of a rod and a wall, when the step began, after growth and
+                               ///< squeezing; a length
+    std::array<double, max_walls> wall_force{};  ///< on each wall by its number: sum of its contact forces
+    Vec3 stretch{1, 1, 1};  ///< of the box in the step, and of the centres with it: edges after over before
+    Mat3 collision_virial;  ///< sum over contacts of theory, eq. (1.1): V times the collision stress
+    Mat3 spring_virial;     ///< the same of springs (theory, eq. 1.16); 0 where there are none
     /// The collision stress in other conventions, if asked for: the sums over contacts of (r_j - r_i) F, centre of mass
     /// to centre of mass, and of (r_j + a_j - r_i - a_i) F, from centre line to centre line.
     Mat3 centre_of_mass_virial, centre_line_virial;

@@ -62,6 +62,14 @@ void measure_spring_stress(const ResolvedStep& step, double time_step, StepRepor
         sum_of_spring_stresses(step.state.springs, step.known.pulls, rods, half_way.centre, half_way.axis);
 }
 
+/// Theory 6: the sum of the contact forces on each wall.
+void measure_wall_forces(const ResolvedStep& step, StepReport& report) {
+    const std::vector<double>& gamma = step.solution.gamma;
+    for (const Wall& wall : walls_of(step.state.box))
+        report.wall_force[wall.number] = parallel_sum<double>(
+            gamma.size(), [&](std::size_t l) { return step.contacts.contact[l].i == wall.body() ? gamma[l] : 0.0; });
+}
+
 }  // namespace
 
 void measure_stress(const ResolvedStep& step, const SimulationSettings& settings, std::vector<Vec3>& half_way_axis,
@@ -70,6 +78,7 @@ void measure_stress(const ResolvedStep& step, const SimulationSettings& settings
     if (settings.corrects_brownian_motion()) find_half_way_axes(step, settings.time_step, half_way_axis);
     const std::span<const Vec3> axis = settings.corrects_brownian_motion() ? half_way_axis : step.state.rods.axis;
     measure_collision_stress(step, settings, axis, report, moments);
+    measure_wall_forces(step, report);
     const std::vector<double>& gamma = step.solution.gamma;
     report.active_contacts =
         parallel_sum<std::size_t>(gamma.size(), [&](std::size_t l) { return gamma[l] > 0.0 ? std::size_t{1} : 0; });

@@ -141,7 +141,7 @@ TEST_CASE("unknown keys and tables") {
         {16, "production = 50.0\nseed = 3", 17, 1, "time.seed", "3", "unknown key", "at the top"},
         {2, "sead = 1", 2, 1, "sead", "1", "unknown key", "Did you mean \"seed\"?"},
         {12, "[fluids]", 12, 2, "fluids", "", "unknown table", "Did you mean \"fluid\"?"},
-        {12, "[walls]\nheight = 1\n[fluid]", 12, 2, "walls", "", "unknown table", "[motion]"},
+        {12, "[friction]\nheight = 1\n[fluid]", 12, 2, "friction", "", "unknown table", "[motion]"},
         {2, "fluids.kT = 3", 2, 1, "fluids", "", "unknown table", "Did you mean \"fluid\"?"},
         {10, "[rods.length]", 10, 1, "rods.length", "[rods.length]", "is a table", "a number"},
     };

@@ -1,0 +1,90 @@
+#include "jostle/contact/wall_search.hpp"
+
+#include <algorithm>
+
+#include "jostle/contact/wall_contacts.hpp"
+#include "jostle/parallel/parallel_for.hpp"
+
+namespace jostle {
+
+namespace {
+
+constexpr std::size_t block_size = 1024;  ///< rods looked at together
+
+void add(const Contact& contact, Contacts& contacts) {
+    contacts.push_back(contact, {0, 0, 0}, ContactFeature::end_of_j);
+}
+
+}  // namespace
+
+double WallSearch::find(const StepGeometry& step, Contacts& contacts) {
+    walls_ = walls_of(step.box);
+    if (walls_.empty()) return 0.0;
+    const std::size_t count = step.rods.size();
+    known_.assign(count, 0);
+    blocks_.resize((count + block_size - 1) / block_size);
+    parallel_for_parts(blocks_.size(), [&](std::size_t block) {
+        Found& found = blocks_[block];
+        found.contacts.clear();
+        found.overlap = 0.0;
+        const std::size_t end = std::min(count, (block + 1) * block_size);
+        for (std::size_t row = block * block_size; row < end; ++row)
+            look_at(static_cast<std::uint32_t>(row), step, found);
+    });
+    contacts.append(blocks_.size(), [&](std::size_t block) -> const Contacts& { return blocks_[block].contacts; });
+    double overlap = 0.0;
+    for (const Found& found : blocks_) overlap = std::max(overlap, found.overlap);
+    return overlap;
+}
+
+void WallSearch::look_at(std::uint32_t row, const StepGeometry& step, Found& found) {
+    const Rods& rods = step.rods;
+    const double radius = 0.5 * rods.diameter[row], size = 0.5 * rods.length[row] + radius;
+    const double range = std::max(step.shift.part[row] + step.ranges.activation_margin, step.ranges.range);
+    for (const Wall& wall : walls_) {
+        if (wall.distance(step.known.centre[row]) - size - step.displacement[row] > range) continue;
+        for (const double arm : wall_arms(step.box.walls(), rods.length[row])) {
+            Contact contact = contact_with_wall(wall, rods, row, arm);
+            found.overlap = std::max(found.overlap, -contact.gap);
+            const double after = wall.distance(step.known.centre[row] + arm * step.known.axis[row]) - radius;
+            contact.shifted_gap = after - step.shift.exact(contact);
+            if (contact.gap >= step.ranges.range && contact.shifted_gap >= step.ranges.activation_margin) continue;
+            known_[row] = static_cast<std::uint16_t>(known_[row] | 1U << bit_of(wall, arm));
+            add(contact, found.contacts);
+        }
+    }
+}
+
+Contacts WallSearch::violated(const StepGeometry& step, const EndConfiguration& end) {
+    Contacts all;
+    if (walls_.empty()) return all;
+    const std::size_t count = end.rows.size();
+    std::vector<Contacts> found((count + block_size - 1) / block_size);
+    parallel_for_parts(found.size(), [&](std::size_t block) {
+        const std::size_t last = std::min(count, (block + 1) * block_size);
+        for (std::size_t k = block * block_size; k < last; ++k)
+            look_again_at(end.rows[k], end.displacement[k].farthest, step, end, found[block]);
+    });
+    for (const Contacts& part : found) all.append(part);
+    return all;
+}
+
+void WallSearch::look_again_at(std::uint32_t row, double farthest, const StepGeometry& step,
+                               const EndConfiguration& end, Contacts& found) {
+    const Rods& rods = step.rods;
+    const double radius = 0.5 * rods.diameter[row], size = 0.5 * rods.length[row] + radius;
+    for (const Wall& wall : walls_) {
+        if (wall.distance(step.known.centre[row]) - size - farthest > step.shift.part[row]) continue;
+        for (const double arm : wall_arms(step.box.walls(), rods.length[row])) {
+            if (is_contact(row, wall, arm)) continue;
+            Contact contact = contact_with_wall(wall, rods, row, arm);
+            const double shift = step.shift.exact(contact);
+            if (wall.distance(end.centre(row) + arm * end.axis(row)) - radius >= shift) continue;
+            contact.shifted_gap = wall.distance(step.known.centre[row] + arm * step.known.axis[row]) - radius - shift;
+            known_[row] = static_cast<std::uint16_t>(known_[row] | 1U << bit_of(wall, arm));
+            add(contact, found);
+        }
+    }
+}
+
+}  // namespace jostle
