@@ -28,6 +28,9 @@ public:
     /// candidate are up to date.
     bool at_solution() const { return at_solution_; }
 
+    /// Whether this stop is at a solution, or at a candidate whose forces hardly change any more.
+    bool near_solution() const { return at_solution_ || at_near_candidate_; }
+
     const ContactSolution& solution() const { return solution_; }
     const SolverOutcome& outcome() const { return outcome_; }
 
@@ -51,7 +54,7 @@ protected:
     const LcpSettings& settings_;
     ContactSolution solution_;
     SolverOutcome outcome_;
-    bool at_solution_ = false;
+    bool at_solution_ = false, at_near_candidate_ = false;
 };
 
 /// The solver of a method; "auto" is projected SOR where the mobility does not couple rods, else adaptive

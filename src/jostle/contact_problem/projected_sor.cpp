@@ -30,6 +30,8 @@ constexpr std::uint64_t early_search = 6;
 /// Beginning warm, first where the largest change is this part of that of the first sweep, then whenever it has fallen
 /// to this part, last at so many tolerances.
 constexpr double first_search_part = 0.1, next_search_part = 0.3, last_search_tolerances = 2.0;
+/// Beginning warm, candidates from so many tolerances on are nearly the solution.
+constexpr double near_tolerances = 10.0;
 /// With momentum single contacts change by several times what the residual is: it is computed from this many
 /// tolerances on.
 constexpr double early_verification_tolerances = 3.0;
@@ -105,6 +107,9 @@ public:
         result.solution.swap(solution_.gamma);
         return outcome_.status == LcpStatus::converged || outcome_.status == LcpStatus::not_finite;
     }
+
+    /// Whether the last sweep changed no gap by much.
+    bool is_near_solution() const { return warm_ && change_ <= near_tolerances * settings_.tolerance; }
 
 private:
     void sweep() {
@@ -197,6 +202,7 @@ bool ProjectedSor::run_to_next_stop() {
         using End = typename std::remove_reference_t<decltype(sweeps)>::End;
         const End end = sweeps.run(with_new);
         at_solution_ = end == End::solution;
+        at_near_candidate_ = end == End::candidate && sweeps.is_near_solution();
         return std::pair{at_solution_ || end == End::candidate, end == End::given_up};
     };
     if (in_float_) {

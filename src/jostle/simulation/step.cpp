@@ -164,7 +164,7 @@ ContactSolution Simulation::resolved(ContactProblem& problem, const StepGeometry
     while (solver->run_to_next_stop()) {
         const EndConfiguration end = end_configuration(problem.contact_matrix(), solver->solution());
         Contacts more;
-        if (solver->at_solution() && relinearisations-- > 0) more = relinearised(problem, end);
+        if (solver->near_solution() && relinearisations-- > 0) more = relinearised(problem, end);
         const auto violated = search_.violated_pairs(geometry, problem.contacts(), end, solver->at_solution());
         more.append(search_.activate(violated, geometry));
         more.append(wall_search_.violated(geometry, end));
