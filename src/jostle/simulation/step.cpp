@@ -13,6 +13,7 @@
 #include "jostle/motion/springs.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/simulation/forces_at_touching.hpp"
+#include "jostle/simulation/provisional_change.hpp"
 #include "jostle/simulation/simulation.hpp"
 #include "jostle/simulation/step_stress.hpp"
 
@@ -34,65 +35,6 @@ private:
     using Clock = std::chrono::steady_clock;
     StepReport& report_;
     Clock::time_point last_;
-};
-
-/// Cells that lengthen in a step: where it fails they have not (theory 5: growth closes gaps, and the contact problem
-/// of the same step opens them).
-class Lengthening {
-public:
-    Lengthening(const std::optional<Growth>& growth, Rods& rods, double time_step) : rods_(rods) {
-        if (!growth) return;
-        before_ = rods.length;
-        growth->lengthen(rods, time_step);
-    }
-    Lengthening(const Lengthening&) = delete;
-    Lengthening& operator=(const Lengthening&) = delete;
-    ~Lengthening() {
-        if (!before_.empty()) rods_.length.swap(before_);
-    }
-    void keep() { before_.clear(); }
-
-private:
-    Rods& rods_;
-    std::vector<double> before_;
-};
-
-/// A box that goes to its size at the end of a step, and the centres with it: where the step fails they have not. It
-/// closes gaps, as growth does, and the contact problem of the same step opens them.
-class Squeezing {
-public:
-    Squeezing(State& state, const std::optional<Vec3>& edges, CollisionSearch& search)
-        : state_(state), search_(search) {
-        if (!edges) return;
-        box_before_ = state.box;
-        centre_before_ = state.rods.centre;
-        for (std::size_t k = 0; k < 3; ++k)
-            if (const auto direction = static_cast<int>(k);
-                box_before_.periodic()[k])  // else a plane moves, and no rod
-                stretch_[direction] = (*edges)[direction] / box_before_.edges()[direction];
-        state.box = Box(*edges, box_before_.periodic(), box_before_.walls());
-        parallel_for(state.rods.size(), [&](std::size_t i) {
-            for (int k = 0; k < 3; ++k) state.rods.centre[i][k] *= stretch_[k];
-        });
-        search.stretch(stretch_);
-    }
-    Squeezing(const Squeezing&) = delete;
-    Squeezing& operator=(const Squeezing&) = delete;
-    ~Squeezing() {
-        if (centre_before_.empty()) return;
-        state_.box = box_before_;
-        state_.rods.centre.swap(centre_before_);
-        search_.invalidate();
-    }
-    const Vec3& stretch() const { return stretch_; }
-    void keep() { centre_before_.clear(); }
-
-private:
-    State& state_;
-    CollisionSearch& search_;
-    Box box_before_;
-    Vec3 stretch_{1, 1, 1};
-    std::vector<Vec3> centre_before_;
 };
 
 /// Pairs in contact may overlap by as much, in D, where contact forces turn them far in one step.
