@@ -15,6 +15,10 @@ void add(const Contact& contact, Contacts& contacts) {
     contacts.push_back(contact, {0, 0, 0}, ContactFeature::end_of_j);
 }
 
+double gap_after_known_motion(const Wall& wall, std::uint32_t row, double arm, const StepGeometry& step) {
+    return wall.distance(step.known.centre[row] + arm * step.known.axis[row]) - 0.5 * step.rods.diameter[row];
+}
+
 }  // namespace
 
 double WallSearch::find(const StepGeometry& step, Contacts& contacts) {
@@ -39,20 +43,18 @@ double WallSearch::find(const StepGeometry& step, Contacts& contacts) {
 
 void WallSearch::look_at(std::uint32_t row, const StepGeometry& step, Found& found) {
     const Rods& rods = step.rods;
-    const double radius = 0.5 * rods.diameter[row], size = 0.5 * rods.length[row] + radius;
     const double range = std::max(step.shift.part[row] + step.ranges.activation_margin, step.ranges.range);
-    for (const Wall& wall : walls_) {
-        if (wall.distance(step.known.centre[row]) - size - step.displacement[row] > range) continue;
+    for (const Wall& wall : walls_)
         for (const double arm : wall_arms(step.box.walls(), rods.length[row])) {
+            const double after = gap_after_known_motion(wall, row, arm, step);
+            if (after - step.displacement[row] > range) continue;
             Contact contact = contact_with_wall(wall, rods, row, arm);
             found.overlap = std::max(found.overlap, -contact.gap);
-            const double after = wall.distance(step.known.centre[row] + arm * step.known.axis[row]) - radius;
             contact.shifted_gap = after - step.shift.exact(contact);
             if (contact.gap >= step.ranges.range && contact.shifted_gap >= step.ranges.activation_margin) continue;
             known_[row] = static_cast<std::uint16_t>(known_[row] | 1U << bit_of(wall, arm));
             add(contact, found.contacts);
         }
-    }
 }
 
 Contacts WallSearch::violated(const StepGeometry& step, const EndConfiguration& end) {
@@ -72,19 +74,18 @@ Contacts WallSearch::violated(const StepGeometry& step, const EndConfiguration& 
 void WallSearch::look_again_at(std::uint32_t row, double farthest, const StepGeometry& step,
                                const EndConfiguration& end, Contacts& found) {
     const Rods& rods = step.rods;
-    const double radius = 0.5 * rods.diameter[row], size = 0.5 * rods.length[row] + radius;
-    for (const Wall& wall : walls_) {
-        if (wall.distance(step.known.centre[row]) - size - farthest > step.shift.part[row]) continue;
+    for (const Wall& wall : walls_)
         for (const double arm : wall_arms(step.box.walls(), rods.length[row])) {
-            if (is_contact(row, wall, arm)) continue;
+            const double after = gap_after_known_motion(wall, row, arm, step);
+            if (after - farthest > step.shift.part[row] || is_contact(row, wall, arm)) continue;
             Contact contact = contact_with_wall(wall, rods, row, arm);
             const double shift = step.shift.exact(contact);
-            if (wall.distance(end.centre(row) + arm * end.axis(row)) - radius >= shift) continue;
-            contact.shifted_gap = wall.distance(step.known.centre[row] + arm * step.known.axis[row]) - radius - shift;
+            const double at_end = wall.distance(end.centre(row) + arm * end.axis(row)) - 0.5 * rods.diameter[row];
+            if (at_end >= shift) continue;
+            contact.shifted_gap = after - shift;
             known_[row] = static_cast<std::uint16_t>(known_[row] | 1U << bit_of(wall, arm));
             add(contact, found);
         }
-    }
 }
 
 }  // namespace jostle
