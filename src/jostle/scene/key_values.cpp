@@ -7,6 +7,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "jostle/scene/number_text.hpp"
 #include "jostle/scene/scene_keys.hpp"
 #include "jostle/scene/unused_keys.hpp"
 
@@ -21,7 +22,7 @@ std::string in_words(const std::string& value) {
     return value;
 }
 std::string in_words(const Vec3& value) {
-    return fmt::format("[{}, {}, {}]", value.x, value.y, value.z);
+    return text(value);
 }
 template <class Value>
 std::string in_words(const Value& value) {
@@ -35,7 +36,7 @@ std::string in_words(const std::optional<Value>& value) {
     return value ? in_words(*value) : "auto";
 }
 std::string in_words(const std::array<bool, 3>& value) {
-    return fmt::format("[{}, {}, {}]", value[0], value[1], value[2]);
+    return text(value);
 }
 
 template <class Value>

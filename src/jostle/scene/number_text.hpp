@@ -2,11 +2,12 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <string>
 
 #include "jostle/math/vec3.hpp"
 
-// How the checks of a scene write numbers.
+// How the checks of a scene write values.
 
 namespace jostle {
 
@@ -16,6 +17,9 @@ inline std::string text(double value) {
 }
 inline std::string text(const Vec3& value) {
     return fmt::format("[{}, {}, {}]", value.x, value.y, value.z);
+}
+inline std::string text(const std::array<bool, 3>& value) {
+    return fmt::format("[{}, {}, {}]", value[0], value[1], value[2]);
 }
 /// To four digits.
 inline std::string rounded(double value) {

@@ -17,10 +17,6 @@ namespace {
 
 using Three = std::array<bool, 3>;
 
-std::string in_words(const Three& value) {
-    return fmt::format("[{}, {}, {}]", value[0], value[1], value[2]);
-}
-
 /// Directions in which walls of the scene end the box.
 Three walled(const Scene& scene) {
     Three ends = scene.walls.faces;
@@ -37,8 +33,8 @@ void check_periodic(const Scene& scene) {
     Three open = scene.box.periodic;
     for (std::size_t k = 0; k < 3; ++k) open[k] = open[k] && !ends[k];
     if (open == scene.box.periodic) return;
-    refuse("box.periodic", in_words(scene.box.periodic), "has periodic directions that end at walls",
-           "periodic = " + in_words(open), "A wall ends the box in the directions that it stands across");
+    refuse("box.periodic", text(scene.box.periodic), "has periodic directions that end at walls",
+           "periodic = " + text(open), "A wall ends the box in the directions that it stands across");
 }
 
 void check_container(const Scene& scene, double rods_volume) {
@@ -49,8 +45,8 @@ void check_container(const Scene& scene, double rods_volume) {
     const auto axis = static_cast<std::size_t>(scene.walls.axis);
     for (std::size_t k = 0; k < 3; ++k) faces[k] = faces[k] && container == Container::tube && k == axis;
     if (faces != scene.walls.faces)
-        refuse("walls.faces", in_words(scene.walls.faces),
-               fmt::format("puts planes where container = \"{}\" is the wall", word), in_words(faces),
+        refuse("walls.faces", text(scene.walls.faces),
+               fmt::format("puts planes where container = \"{}\" is the wall", word), text(faces),
                "Remove faces, or the container");
     const Vec3 edges = box_edges(scene, rods_volume);
     const auto k = static_cast<int>(axis);

@@ -33,7 +33,7 @@ void check_sizes(const Scene& scene) {
                fmt::format("L/D at most {}", longest_line_of_blobs), without_fluid);
 }
 
-void check_box(const Scene& scene) {
+void check_box_of_fluid(const Scene& scene) {
     const auto [x, y, z] = scene.box.periodic;
     if (x != y || y != z)
         refuse(
@@ -79,7 +79,7 @@ void check_motions(const Scene& scene) {
 void validate_fluid(const Scene& scene) {
     if (scene.mobility.model != MobilityModel::hydrodynamic) return;
     Mistakes mistakes;
-    for (const auto check : {check_sizes, check_box, check_motions}) mistakes.look([&] { check(scene); });
+    for (const auto check : {check_sizes, check_box_of_fluid, check_motions}) mistakes.look([&] { check(scene); });
     mistakes.refuse_any();
 }
 
