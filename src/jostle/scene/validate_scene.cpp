@@ -272,11 +272,11 @@ const std::vector<TogetherCheck>& together_checks() {
     static const std::vector<TogetherCheck> checks = {
         {check_start, {"rods"}},
         {check_box_given_once, {"box"}},
-        {check_box, {"box", "rods", "schedule"}},
+        {check_box, {"box", "walls", "rods", "schedule"}},
         {check_motion, {"motion", "schedule"}},
         {check_mobility, {"mobility", "rods"}},
         {validate_fluid, {"mobility", "rods", "box", "motion", "growth", "springs", "schedule", "contact", "solver"}},
-        {check_schedule, {"schedule", "box", "growth"}},
+        {check_schedule, {"schedule", "box", "walls", "growth"}},
         {check_springs, {"springs", "growth"}},
         {check_solver, {"contact", "solver", "fluid"}},
         {check_time, {"time", "motion", "fluid", "growth", "springs", "schedule"}},
@@ -301,8 +301,8 @@ void require_fit_together(const Scene& scene, std::span<const std::string> unsou
     const auto is_sound = [&](std::string_view table) {
         return std::find(unsound.begin(), unsound.end(), table) == unsound.end();
     };
-    for (const auto& [check, tables] : together_checks())
-        if (std::all_of(tables.begin(), tables.end(), is_sound)) mistakes.look([&] { check(scene); });
+    for (const TogetherCheck& each : together_checks())
+        if (std::all_of(each.tables.begin(), each.tables.end(), is_sound)) mistakes.look([&] { each.check(scene); });
     mistakes.refuse_any();
 }
 
