@@ -18,7 +18,7 @@ using namespace jostle;
 
 namespace {
 
-constexpr double reach = 0.1;   ///< of each rod in the search for contacts, in D
+constexpr double range = 0.1;   ///< of each rod in the search for contacts, in D
 constexpr double travel = 0.4;  ///< of the neighbour list, in D
 
 /// Sets each_takes (seconds), given on how many items one pass over the benchmark's body worked.
@@ -34,14 +34,14 @@ struct Neighbours {
     explicit Neighbours(const Simulation& simulation)
         : rods(simulation.rods()),
           box(simulation.box()),
-          reaches(rods.size(), reach * rods.diameter.front()),
+          ranges(rods.size(), range * rods.diameter.front()),
           neighbours(travel * rods.diameter.front()) {
-        neighbours.update(rods, box, reaches);
+        neighbours.update(rods, box, ranges);
     }
 
     const Rods& rods;
     const Box& box;
-    std::vector<double> reaches;
+    std::vector<double> ranges;
     NeighbourList neighbours;
 };
 
@@ -156,7 +156,7 @@ void build_neighbour_list(benchmark::State& state, const Crowd& crowd) {
     Neighbours found(*simulation);
     for (auto unused : state) {
         found.neighbours.invalidate();
-        benchmark::DoNotOptimize(found.neighbours.update(found.rods, found.box, found.reaches));
+        benchmark::DoNotOptimize(found.neighbours.update(found.rods, found.box, found.ranges));
     }
     state.counters["pairs"] = static_cast<double>(found.neighbours.size());
     count_items(state, found.rods.size());
@@ -168,7 +168,7 @@ void find_contacts_on_list(benchmark::State& state, const Crowd& crowd) {
     Contacts contacts;
     for (auto unused : state) {
         contacts.clear();
-        benchmark::DoNotOptimize(find_contacts(found.rods, found.box, found.neighbours, found.reaches, contacts));
+        benchmark::DoNotOptimize(find_contacts(found.rods, found.box, found.neighbours, found.ranges, contacts));
     }
     state.counters["contacts"] = static_cast<double>(contacts.size());
     count_items(state, found.neighbours.size());

@@ -63,11 +63,12 @@ JOSTLE_VECTORISED void find_bounds(std::size_t count, Batch& batch) {
 
 double CollisionSearch::find(const StepGeometry& step, Contacts& contacts) {
     const Rods& rods = step.rods;
-    reach_.resize(rods.size());
+    interaction_range_.resize(rods.size());
     bounds_.resize(rods.size());
     parallel_for(rods.size(), [&](std::size_t i) {
         const double shift = step.shift.part[i];
-        reach_[i] = std::max(step.displacement[i] + shift + step.ranges.displacement_limit, 0.5 * step.ranges.range);
+        interaction_range_[i] =
+            std::max(step.displacement[i] + shift + step.ranges.displacement_limit, 0.5 * step.ranges.range);
         bounds_[i] = {rods.centre[i],
                       in_float(rods.axis[i]),
                       in_float(step.known.centre[i] - rods.centre[i]),
@@ -76,8 +77,8 @@ double CollisionSearch::find(const StepGeometry& step, Contacts& contacts) {
                       static_cast<float>(0.5 * rods.diameter[i]),
                       static_cast<float>(shift * shift)};
     });
-    neighbours_.set_travel(step.ranges.skin);
-    neighbours_.update(rods, step.box, reach_);
+    neighbours_.set_skin(step.ranges.skin);
+    neighbours_.update(rods, step.box, interaction_range_);
     search_blocks(step);
     contacts.clear();
     contacts.append(shares_.size(), [&](std::size_t share) -> const Contacts& { return shares_[share].contacts; });
@@ -193,7 +194,7 @@ double CollisionSearch::append(const PairKey& key, const PairGeometry& before, c
         contacts.contact[first].shifted_gap -= shift;
         return shift;
     }
-    append_contacts(key, before, nearest, distance, reach_[key.i] + reach_[key.j], contacts);
+    append_contacts(key, before, nearest, distance, interaction_range_[key.i] + interaction_range_[key.j], contacts);
     double largest = 0.0;
     for (std::size_t l = first; l < contacts.size(); ++l) {
         Contact& contact = contacts.contact[l];
@@ -290,12 +291,12 @@ std::vector<PairKey> CollisionSearch::violated_pairs(const StepGeometry& step, c
         });
     }
     // Pairs that were passed over because no force was thought to take rods so far; and all, once the list is another.
-    std::vector<NeighbourList::Overreach> farther;
+    std::vector<NeighbourList::BeyondRange> farther;
     if (thorough) {
         for (const std::uint32_t row : end.rows)
             if (!within_limit(row)) farther.push_back({row, farthest_[row] - limit});
     }
-    if (!farther.empty()) neighbours_.widen(step.rods, step.box, reach_, farther);
+    if (!farther.empty()) neighbours_.widen(step.rods, step.box, interaction_range_, farther);
     if (!farther.empty() || neighbours_.built_while_widened()) {
         found.resize(std::max(found.size(), neighbours_.block_count()));
         parallel_for_parts(neighbours_.block_count(), [&](std::size_t block) {

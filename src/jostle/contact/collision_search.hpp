@@ -106,7 +106,7 @@ private:
                      const EndConfiguration& end) const;
 
     NeighbourList neighbours_{0.0};
-    std::vector<double> reach_;                  ///< (N) displacement + shift + displacement limit
+    std::vector<double> interaction_range_;      ///< (N) displacement + shift + displacement limit
     std::vector<RodBounds> bounds_;              ///< (N)
     std::vector<Found> shares_;                  ///< (threads), in the order of their blocks
     std::vector<InBlock> in_block_;              ///< (blocks)

@@ -8,14 +8,14 @@
 
 namespace jostle {
 
-double find_contacts(const Rods& rods, const Box& box, const NeighbourList& neighbours, std::span<const double> reach,
+double find_contacts(const Rods& rods, const Box& box, const NeighbourList& neighbours, std::span<const double> ranges,
                      Contacts& contacts) {
     std::vector<Contacts> blocks(neighbours.block_count());
     std::vector<double> overlaps(blocks.size(), 0.0);
     const auto look_at = [&](std::size_t block, const PairKey& key) {
         const auto& [i, j, image] = key;
         const PairGeometry geometry = pair_geometry(rods, i, j, box.displacement(image), rods.centre, rods.axis);
-        const double range = reach[i] + reach[j];
+        const double range = ranges[i] + ranges[j];
         const NearestPoints nearest = nearest_points(geometry);
         const double distance = norm(nearest.separation);
         if (distance >= geometry.radii + range) return;
@@ -29,7 +29,7 @@ double find_contacts(const Rods& rods, const Box& box, const NeighbourList& neig
     });
     contacts.clear();
     contacts.append(blocks.size(), [&](std::size_t block) -> const Contacts& { return blocks[block]; });
-    const double with_walls = append_wall_contacts(rods, box, reach, contacts);
+    const double with_walls = append_wall_contacts(rods, box, ranges, contacts);
     return parallel_max(overlaps.size(), with_walls, [&](std::size_t block) { return overlaps[block]; });
 }
 

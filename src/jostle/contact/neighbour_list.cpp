@@ -23,7 +23,7 @@ constexpr double float_error = 2e-4;
 constexpr double near = 8.0;
 
 /// Gaps in the list are counted in these; the widest fits 16 bits.
-constexpr float units_per_skin = 65535.0F;
+constexpr float units_per_list_range = 65535.0F;
 
 /// Pairs (i, j, image) of some rods i, one rod after the other; gap and image as the list holds them.
 struct NewPairs {
@@ -107,7 +107,7 @@ private:
 class Builder {
 public:
     Builder(const Rods& rods, const Box& box, const CellList& cells, const ImageNumbers& images, double range,
-            double skin, double units_per_length)
+            double list_range, double units_per_length)
         : rods_(rods),
           box_(box),
           cells_(cells),
@@ -115,11 +115,11 @@ public:
           zero_(images.of({0, 0, 0})),
           squared_range_(range * range),
           error_(static_cast<float>(float_error * range)),
-          skin_(static_cast<float>(skin) + error_),
+          list_range_(static_cast<float>(list_range) + error_),
           units_per_length_(static_cast<float>(units_per_length)) {}
 
-    /// Appends the pairs (i, j >= i, image) with a gap below the skin, of all i in a cell; in order for each i. Fills
-    /// in how many there are of each.
+    /// Appends the pairs (i, j >= i, image) with a gap below the range of the list, of all i in a cell; in order for
+    /// each i. Fills in how many there are of each.
     void append_pairs_of(std::size_t home, Surroundings& around, NewPairs& pairs,
                          std::vector<std::size_t>& count) const {
         const auto homes = cells_.rods_in(home);
@@ -153,7 +153,7 @@ private:
             for (std::size_t k = 0; k < around.size(); ++k) {
                 const std::uint32_t j = around.row[k];
                 // A rod and its own image are met twice, in opposite images; the one above 0 stands for both.
-                if (around.gap[k] >= skin_ || j < i || (j == i && around.image[k] <= zero_)) continue;
+                if (around.gap[k] >= list_range_ || j < i || (j == i && around.image[k] <= zero_)) continue;
                 pairs.partners.push_back({j, around.image[k], in_units(around.gap[k])});
             }
             pairs.i.push_back(i);
@@ -164,7 +164,7 @@ private:
     }
 
     std::uint16_t in_units(float gap) const {
-        return static_cast<std::uint16_t>(std::clamp((gap - error_) * units_per_length_, 0.0F, units_per_skin));
+        return static_cast<std::uint16_t>(std::clamp((gap - error_) * units_per_length_, 0.0F, units_per_list_range));
     }
 
     /// The rods within range of the box that encloses the centres of `homes`.
@@ -199,7 +199,7 @@ private:
     const ImageNumbers& images_;
     std::uint16_t zero_;
     double squared_range_;
-    float error_, skin_, units_per_length_;
+    float error_, list_range_, units_per_length_;
 };
 
 JOSTLE_VECTORISED void extents_less_gaps(std::size_t count, const std::uint32_t* j, const std::uint16_t* gap,
@@ -209,46 +209,46 @@ JOSTLE_VECTORISED void extents_less_gaps(std::size_t count, const std::uint32_t*
 
 }  // namespace
 
-void NeighbourList::widen(const Rods& rods, const Box& box, std::span<const double> reach,
-                          std::span<const Overreach> farther) {
+void NeighbourList::widen(const Rods& rods, const Box& box, std::span<const double> ranges,
+                          std::span<const BeyondRange> farther) {
     if (extent_within_.empty())
         extent_within_ = extent_;
     else
         extent_ = extent_within_;
-    bool reaches_too_far = built_while_widened_;
+    bool is_too_far = built_while_widened_;
     for (const auto& [row, beyond] : farther) {
         extent_[row] += in_units(beyond);
-        reaches_too_far = reaches_too_far || extent_[row] >= in_units(0.5 * skin_);  // both rounded up
+        is_too_far = is_too_far || extent_[row] >= in_units(0.5 * list_range_);  // both rounded up
     }
-    if (!reaches_too_far) return;
-    std::vector<double> needed(reach.begin(), reach.end());
+    if (!is_too_far) return;
+    std::vector<double> needed(ranges.begin(), ranges.end());
     for (const auto& [row, beyond] : farther) needed[row] += beyond;
     built_while_widened_ = refresh(rods, box, needed) || built_while_widened_;
 }
 
-// A stretch e moves two centres less than `range_` apart by e range_ against each other at most; and farther ones,
-// whose gap was above the skin, stay beyond range_ (1 - e).
+// A stretch e moves two centres less than `centre_range_` apart by e centre_range_ against each other at most; and
+// farther ones, whose gap was above the range of the list, stay beyond centre_range_ (1 - e).
 void NeighbourList::stretch(const Vec3& by) {
     double strain = 0.0;
     for (int k = 0; k < 3; ++k) strain = std::max(strain, std::fabs(by[k] - 1.0));
-    squeezed_ += strain * range_;
+    squeezed_ += strain * centre_range_;
     parallel_for(reference_.centre.size(), [&](std::size_t i) {
         for (int k = 0; k < 3; ++k) reference_.centre[i][k] *= by[k];
     });
 }
 
-bool NeighbourList::refresh(const Rods& rods, const Box& box, std::span<const double> reach) {
+bool NeighbourList::refresh(const Rods& rods, const Box& box, std::span<const double> ranges) {
     extent_.resize(rods.size());
     crossed_.resize(rods.size());
-    if (reference_.centre.size() == rods.size() && find_extents(rods, box, reach) <= 0.5 * skin_) return false;
-    const double largest_reach = parallel_max(rods.size(), 0.0, [&](std::size_t i) { return reach[i]; });
-    build(rods, box, 2.0 * (largest_reach + travel_));
-    parallel_for(rods.size(), [&](std::size_t i) { extent_[i] = in_units(reach[i]); });
+    if (reference_.centre.size() == rods.size() && find_extents(rods, box, ranges) <= 0.5 * list_range_) return false;
+    const double largest_range = parallel_max(rods.size(), 0.0, [&](std::size_t i) { return ranges[i]; });
+    build(rods, box, 2.0 * (largest_range + skin_));
+    parallel_for(rods.size(), [&](std::size_t i) { extent_[i] = in_units(ranges[i]); });
     return true;
 }
 
-/// Fills in d_i + reach_i, and returns the largest.
-double NeighbourList::find_extents(const Rods& rods, const Box& box, std::span<const double> reach) {
+/// Fills in d_i + range_i, and returns the largest.
+double NeighbourList::find_extents(const Rods& rods, const Box& box, std::span<const double> ranges) {
     return parallel_max(rods.size(), 0.0, [&](std::size_t i) {
         Vec3 moved = rods.centre[i] - reference_.centre[i];
         crossed_[i] = {};
@@ -262,15 +262,15 @@ double NeighbourList::find_extents(const Rods& rods, const Box& box, std::span<c
         const Vec3 &axis = rods.axis[i], &before = reference_.axis[i];
         const Vec3 turned = dot(axis, before) < 0.0 ? axis + before : axis - before;
         const double extent = farthest_displacement(moved, turned, 0.5 * reference_.length[i]) +
-                              0.5 * std::max(0.0, rods.length[i] - reference_.length[i]) + 0.5 * squeezed_ + reach[i];
+                              0.5 * std::max(0.0, rods.length[i] - reference_.length[i]) + 0.5 * squeezed_ + ranges[i];
         extent_[i] = in_units(extent);
         return extent;
     });
 }
 
-/// Rounded up; far beyond the skin, all are alike.
+/// Rounded up; far beyond the range of the list, all are alike.
 std::int32_t NeighbourList::in_units(double extent) const {
-    return 1 + static_cast<std::int32_t>(std::min(extent * units_per_length_, 4.0 * units_per_skin));
+    return 1 + static_cast<std::int32_t>(std::min(extent * units_per_length_, 4.0 * units_per_list_range));
 }
 
 /// The rows that pairs belong to, and by how much their extents exceed their gaps.
@@ -287,8 +287,8 @@ void NeighbourList::find_closeness(std::size_t begin, std::size_t end, std::uint
     extents_less_gaps(end - begin, j_.data() + begin, gap_.data() + begin, extent_.data(), closeness);
 }
 
-void NeighbourList::build(const Rods& rods, const Box& box, double skin) {
-    skin_ = skin;
+void NeighbourList::build(const Rods& rods, const Box& box, double list_range) {
+    list_range_ = list_range;
     reference_.centre.resize(rods.size());
     reference_.axis.resize(rods.size());
     reference_.image.resize(rods.size());
@@ -302,13 +302,13 @@ void NeighbourList::build(const Rods& rods, const Box& box, double skin) {
     });
     const double longest =
         parallel_max(rods.size(), 0.0, [&](std::size_t i) { return rods.length[i] + rods.diameter[i]; });
-    const double range = range_ = longest + skin;
+    const double range = centre_range_ = longest + list_range;
     squeezed_ = 0.0;
     const CellList cells(rods, box, range);
     const ImageNumbers images(cells.farthest_image());
     images_ = images.all();
-    units_per_length_ = skin > 0.0 ? units_per_skin / skin : 0.0;
-    const Builder builder(rods, box, cells, images, range, skin, units_per_length_);
+    units_per_length_ = list_range > 0.0 ? units_per_list_range / list_range : 0.0;
+    const Builder builder(rods, box, cells, images, range, list_range, units_per_length_);
     std::vector<NewPairs> blocks((cells.size() + cells_per_block - 1) / cells_per_block);
     begin_.assign(rods.size() + 1, 0);
     parallel_for_blocks(cells.size(), cells_per_block, [&](std::size_t block, std::size_t first, std::size_t last) {

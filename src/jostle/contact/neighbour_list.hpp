@@ -15,32 +15,33 @@ namespace jostle {
 
 /// Verlet list with a skin over a cell list, for any box: periodic, open, or thinner than a rod is long.
 ///
-/// After `update(rods, box, reach)` the list holds every pair (i, j, image) whose gap is below reach_i + reach_j, where
-/// a rod and its own image are a pair too. It is built anew only when some rod has moved so far since the last time
-/// that this could fail: if no point of rod i has moved by more than d_i, pairs with gap < skin at building time
-/// suffice as long as d_i + reach_i <= skin/2 for all i.
+/// After `update(rods, box, ranges)` the list holds every pair (i, j, image) whose gap is below range_i + range_j,
+/// where a rod and its own image are a pair too. It is built anew only when some rod has moved so far since the last
+/// time that this could fail: if no point of rod i has moved by more than d_i, pairs with gap < range of the list at
+/// building time suffice as long as d_i + range_i <= half that range for all i.
 class NeighbourList {
 public:
-    /// `travel`: how far a rod may go, beside its reach, before the list is built again (a length).
-    explicit NeighbourList(double travel) : travel_(travel) {}
-    void set_travel(double travel) { travel_ = travel; }
+    /// `skin`: how far a rod may go, beyond its range, before the list is built again (a length).
+    explicit NeighbourList(double skin) : skin_(skin) {}
+    void set_skin(double skin) { skin_ = skin; }
 
-    /// Builds anew if need be; returns whether it did. `reach`: (N), lengths.
-    bool update(const Rods& rods, const Box& box, std::span<const double> reach) {
+    /// Builds anew if need be; returns whether it did. `ranges`: (N), the share of each rod in the
+    /// interaction range of a pair, lengths.
+    bool update(const Rods& rods, const Box& box, std::span<const double> ranges) {
         extent_within_.clear();
         built_while_widened_ = false;
-        return refresh(rods, box, reach);
+        return refresh(rods, box, ranges);
     }
 
-    /// Rods that come farther than their reach.
-    struct Overreach {
+    /// A rod that comes farther than its range.
+    struct BeyondRange {
         std::uint32_t row;
         double beyond;  ///< a length
     };
 
-    /// After an `update` with `reach`: lets some rods come farther, in place of earlier such ones. `was_close` then
+    /// After an `update` with `ranges`: lets some rods come farther, in place of earlier such ones. `was_close` then
     /// tells which pairs were close without.
-    void widen(const Rods& rods, const Box& box, std::span<const double> reach, std::span<const Overreach> farther);
+    void widen(const Rods& rods, const Box& box, std::span<const double> ranges, std::span<const BeyondRange> farther);
 
     /// To be told where the box is stretched, and all centres with it: gaps of the pairs that count change little.
     void stretch(const Vec3& by);
@@ -66,8 +67,8 @@ public:
     static constexpr std::size_t block_size = 512;
     std::size_t block_count() const { return (size() + block_size - 1) / block_size; }
 
-    /// Calls found(i, pair) for the pairs of a block, in order, whose gap may be below the reaches given to the last
-    /// update. Most pairs of the skin are passed over by what they were when the list was built.
+    /// Calls found(i, pair) for the pairs of a block, in order, whose gap may be below the ranges given to the last
+    /// update. Most pairs of the list are passed over by what they were when the list was built.
     template <class Found>
     void for_close_pairs(std::size_t block, Found&& found) const {
         const std::size_t begin = block * block_size, end = std::min(begin + block_size, size());
@@ -92,17 +93,17 @@ public:
     }
 
 private:
-    bool refresh(const Rods& rods, const Box& box, std::span<const double> reach);
-    double find_extents(const Rods& rods, const Box& box, std::span<const double> reach);
+    bool refresh(const Rods& rods, const Box& box, std::span<const double> ranges);
+    double find_extents(const Rods& rods, const Box& box, std::span<const double> ranges);
     std::int32_t in_units(double extent) const;
-    void build(const Rods& rods, const Box& box, double skin);
+    void build(const Rods& rods, const Box& box, double list_range);
     void find_closeness(std::size_t begin, std::size_t end, std::uint32_t* i, std::int32_t* closeness) const;
 
-    double travel_;
-    double skin_ = 0.0;
-    double range_ = 0.0;             ///< of centres, within which pairs were looked for
+    double skin_;
+    double list_range_ = 0.0;
+    double centre_range_ = 0.0;      ///< of centres, within which pairs were looked for
     double squeezed_ = 0.0;          ///< by so much gaps have changed since, at most, with the box alone
-    double units_per_length_ = 0.0;  ///< gaps are kept in units of which 65535 are the skin
+    double units_per_length_ = 0.0;  ///< gaps are kept in units of which 65535 are the range of the list
     struct Reference {
         std::vector<Vec3> centre, axis;
         std::vector<Image> image;
@@ -114,7 +115,7 @@ private:
     std::vector<std::uint16_t> image_;  ///< when the list was built: which of images_
     std::vector<Image> images_;         ///< ascending
     std::vector<std::array<std::int16_t, 3>> crossed_;  ///< (N) box edges that a rod has crossed since
-    std::vector<std::int32_t> extent_;                  ///< (N) d_i + reach_i at the last update, in units, rounded up
+    std::vector<std::int32_t> extent_;                  ///< (N) d_i + range_i at the last update, in units, rounded up
     std::vector<std::int32_t> extent_within_;           ///< (N) before the list was widened, or none
     bool built_while_widened_ = false;
 };

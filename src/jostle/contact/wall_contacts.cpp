@@ -15,7 +15,7 @@ Contact contact_with_wall(const Wall& wall, const Rods& rods, std::uint32_t row,
     return contact;
 }
 
-double append_wall_contacts(const Rods& rods, const Box& box, std::span<const double> reach, Contacts& contacts) {
+double append_wall_contacts(const Rods& rods, const Box& box, std::span<const double> ranges, Contacts& contacts) {
     const std::vector<Wall> walls = walls_of(box);
     if (walls.empty()) return 0.0;
     double overlap = 0.0;
@@ -24,7 +24,7 @@ double append_wall_contacts(const Rods& rods, const Box& box, std::span<const do
             for (const double arm : wall_arms(box.walls(), rods.length[row])) {
                 const Contact contact = contact_with_wall(wall, rods, row, arm);
                 overlap = std::max(overlap, -contact.gap);
-                if (contact.gap < reach[row]) contacts.push_back(contact, {0, 0, 0}, ContactFeature::end_of_j);
+                if (contact.gap < ranges[row]) contacts.push_back(contact, {0, 0, 0}, ContactFeature::end_of_j);
             }
     return overlap;
 }

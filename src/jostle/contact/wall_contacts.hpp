@@ -11,9 +11,9 @@ namespace jostle {
 /// The contact of the point at `arm` of a rod with a wall, as the rod lies now; its gap is not shifted.
 Contact contact_with_wall(const Wall& wall, const Rods& rods, std::uint32_t row, double arm);
 
-/// Appends the contacts of rods with the walls of their box whose gap is below the rod's reach. `reach`: (N). Returns
+/// Appends the contacts of rods with the walls of their box whose gap is below the rod's range. `ranges`: (N). Returns
 /// the largest overlap with a wall, max(0, -gap).
-double append_wall_contacts(const Rods& rods, const Box& box, std::span<const double> reach, Contacts& contacts);
+double append_wall_contacts(const Rods& rods, const Box& box, std::span<const double> ranges, Contacts& contacts);
 
 /// Those of `contacts` with walls that overlap by more than `max_overlap` where contact forces take their rods, with
 /// the normals and the gaps that they have there (shifted_gap); `gap` is that before the step.

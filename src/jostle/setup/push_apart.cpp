@@ -14,7 +14,7 @@ namespace {
 // All lengths in diameters of the thinnest rod.
 constexpr double opened_each_round = 0.1;
 constexpr double free_space = 1e-3;
-constexpr double reach = 0.1;
+constexpr double range = 0.1;
 constexpr double largest_move = 0.2;  ///< of any point of a rod in a round
 constexpr double apart_tolerance = 1e-4;
 constexpr int max_rounds = 2000;
@@ -50,11 +50,11 @@ PushApartResult push_apart(Rods& rods, const Box& box, const Mobility& mobility)
     PushApartResult result;
     const double thinnest = rods.size() == 0 ? 1.0 : *std::min_element(rods.diameter.begin(), rods.diameter.end());
     NeighbourList neighbours(0.5 * thinnest);
-    const std::vector<double> reaches(rods.size(), reach * thinnest);
+    const std::vector<double> ranges(rods.size(), range * thinnest);
     Contacts contacts;
     for (;; ++result.rounds) {
-        neighbours.update(rods, box, reaches);
-        result.overlap = find_contacts(rods, box, neighbours, reaches, contacts);
+        neighbours.update(rods, box, ranges);
+        result.overlap = find_contacts(rods, box, neighbours, ranges, contacts);
         result.apart = result.overlap <= overlap_rounding * thinnest;
         if (result.apart || result.rounds == max_rounds) return result;
 

@@ -19,9 +19,9 @@ struct Assembly {
         std::mt19937_64 engine(seed);
         rods = thrown(count, box, 5.0, 1.0, engine);
         NeighbourList neighbours(0.1);
-        const std::vector<double> reach(rods.size(), 0.2);
-        neighbours.update(rods, box, reach);
-        find_contacts(rods, box, neighbours, reach, contacts);
+        const std::vector<double> ranges(rods.size(), 0.2);
+        neighbours.update(rods, box, ranges);
+        find_contacts(rods, box, neighbours, ranges, contacts);
     }
 };
 

@@ -11,12 +11,12 @@ namespace {
 
 const Box wide{{100, 100, 100}, {true, true, true}};
 
-Contacts contacts_of(const Rods& rods, double reach = 0.2, const Box& box = wide) {
+Contacts contacts_of(const Rods& rods, double range = 0.2, const Box& box = wide) {
     NeighbourList neighbours(0.1);
-    const std::vector<double> reaches(rods.size(), 0.5 * reach);
-    neighbours.update(rods, box, reaches);
+    const std::vector<double> ranges(rods.size(), 0.5 * range);
+    neighbours.update(rods, box, ranges);
     Contacts contacts;
-    find_contacts(rods, box, neighbours, reaches, contacts);
+    find_contacts(rods, box, neighbours, ranges, contacts);
     return contacts;
 }
 

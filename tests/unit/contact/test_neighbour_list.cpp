@@ -40,7 +40,7 @@ void walk(Rods& rods, const Box& box, double step, std::mt19937_64& engine) {
 
 }  // namespace
 
-TEST_CASE("no pair within reach is missed, in any box, while rods move: against brute force") {
+TEST_CASE("no pair within range is missed, in any box, while rods move: against brute force") {
     const unsigned seed = 7;
     MESSAGE("seed ", seed);
     std::mt19937_64 engine(seed);
@@ -74,16 +74,16 @@ TEST_CASE("no pair within reach is missed, in any box, while rods move: against 
         Contacts contacts;
         int built = 0;
         for (int step = 0; step < 8; ++step) {
-            std::vector<double> reach(rods.size());
+            std::vector<double> ranges(rods.size());
             std::uniform_real_distribution<double> uniform(0.0, 0.15);
-            for (double& value : reach) value = uniform(engine);
-            built += neighbours.update(rods, test.box, reach) ? 1 : 0;
-            const double overlap = find_contacts(rods, test.box, neighbours, reach, contacts);
+            for (double& value : ranges) value = uniform(engine);
+            built += neighbours.update(rods, test.box, ranges) ? 1 : 0;
+            const double overlap = find_contacts(rods, test.box, neighbours, ranges, contacts);
 
             std::set<Key> expected;
             double deepest = 0.0;
             for (const auto& pair : brute_force_pairs(rods, test.box, 0.3)) {
-                if (pair.gap < reach[pair.i] + reach[pair.j]) expected.emplace(pair.i, pair.j, pair.image);
+                if (pair.gap < ranges[pair.i] + ranges[pair.j]) expected.emplace(pair.i, pair.j, pair.image);
                 deepest = std::max(deepest, -pair.gap);
             }
             CHECK(keys(contacts) == expected);
@@ -103,16 +103,16 @@ TEST_CASE("a rod meets another through two images, and its own image") {
     const auto pairs = keys(brute_force_pairs(rods, box, 0.1));
     CHECK(pairs == std::set<Key>{{0, 1, {0, 0, 0}}, {0, 1, {0, 0, -1}}});
     NeighbourList neighbours(0.2);
-    const std::vector<double> reach{0.05, 0.05};
-    neighbours.update(rods, box, reach);
+    const std::vector<double> ranges{0.05, 0.05};
+    neighbours.update(rods, box, ranges);
     Contacts contacts;
-    find_contacts(rods, box, neighbours, reach, contacts);
+    find_contacts(rods, box, neighbours, ranges, contacts);
     CHECK(keys(contacts) == pairs);
 
     rods = {};
     rods.push_back(0, {5, 5, 1.0}, {0, 0, 1}, 1.0, 1.0);  // total length 2 along the edge of 2: it touches itself
-    neighbours.update(rods, box, {reach.data(), 1});
-    find_contacts(rods, box, neighbours, {reach.data(), 1}, contacts);
+    neighbours.update(rods, box, {ranges.data(), 1});
+    find_contacts(rods, box, neighbours, {ranges.data(), 1}, contacts);
     REQUIRE(contacts.size() == 1);
     CHECK(contacts.image[0] == Image{0, 0, 1});
     CHECK(contacts.contact[0].gap == doctest::Approx(0.0).epsilon(1e-14).scale(1.0));
@@ -122,16 +122,16 @@ TEST_CASE("contacts do not depend on when the list was built") {
     std::mt19937_64 engine(11);
     const Box box{{9, 8, 7}, {true, true, true}};
     Rods rods = thrown(60, box, 5.0, 1.0, engine);
-    const std::vector<double> reach(rods.size(), 0.1);
+    const std::vector<double> ranges(rods.size(), 0.1);
     NeighbourList old_list(0.5);
-    old_list.update(rods, box, reach);
+    old_list.update(rods, box, ranges);
     for (int step = 0; step < 5; ++step) walk(rods, box, 0.02, engine);
-    CHECK_FALSE(old_list.update(rods, box, reach));
+    CHECK_FALSE(old_list.update(rods, box, ranges));
     NeighbourList new_list(0.2);
-    new_list.update(rods, box, reach);
+    new_list.update(rods, box, ranges);
     Contacts from_old, from_new;
-    find_contacts(rods, box, old_list, reach, from_old);
-    find_contacts(rods, box, new_list, reach, from_new);
+    find_contacts(rods, box, old_list, ranges, from_old);
+    find_contacts(rods, box, new_list, ranges, from_new);
     REQUIRE(from_old.size() == from_new.size());
     for (std::size_t l = 0; l < from_old.size(); ++l) {
         CHECK(from_old.image[l] == from_new.image[l]);
@@ -143,8 +143,8 @@ TEST_CASE("contacts do not depend on when the list was built") {
 TEST_CASE("a rod that winds through a tiny box again and again is refused, not listed wrongly") {
     Rods rods;
     rods.push_back(0, {}, {1, 0, 0}, 60.0, 1.0);
-    const std::vector<double> reach(1, 0.1);
+    const std::vector<double> ranges(1, 0.1);
     NeighbourList neighbours(0.1);
-    CHECK_THROWS_AS(neighbours.update(rods, {{2, 2, 2}, {true, true, true}}, reach), InputError);
-    CHECK_NOTHROW(neighbours.update(rods, {{2, 70, 70}, {true, true, true}}, reach));
+    CHECK_THROWS_AS(neighbours.update(rods, {{2, 2, 2}, {true, true, true}}, ranges), InputError);
+    CHECK_NOTHROW(neighbours.update(rods, {{2, 70, 70}, {true, true, true}}, ranges));
 }

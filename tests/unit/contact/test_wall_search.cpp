@@ -41,9 +41,9 @@ TEST_CASE("a rod is nearest to each kind of wall at an end, inside and outside")
     std::mt19937_64 engine(seed);
     for (const Box& box : {slit, closed, sphere, tube, closed_tube}) {
         const Rods rods = test::thrown(200, box, 5.0, 1.0, engine);
-        const std::vector<double> reach(rods.size(), 0.3);
+        const std::vector<double> ranges(rods.size(), 0.3);
         Contacts contacts;
-        append_wall_contacts(rods, box, reach, contacts);
+        append_wall_contacts(rods, box, ranges, contacts);
         std::vector<double> gap(rods.size(), INFINITY);
         for (const Contact& contact : contacts.contact) {
             CHECK(is_fixed(contact.i));
@@ -120,15 +120,15 @@ TEST_CASE("ends that only contact forces bring to a wall are found at the end of
 TEST_CASE("a rod that lies on a plane touches it at both ends, and at its middle where walls turn no rod") {
     Rods rods;
     rods.push_back(0, {1, 1, 0.5}, {1, 0, 0}, 5.0, 1.0);
-    const std::vector<double> reach{0.1};
+    const std::vector<double> ranges{0.1};
     Contacts contacts;
-    append_wall_contacts(rods, slit, reach, contacts);
+    append_wall_contacts(rods, slit, ranges, contacts);
     REQUIRE(contacts.size() == 2);
     CHECK(contacts.contact[0].arm_j == -2.5);
     CHECK(contacts.contact[1].arm_j == 2.5);
     const Box without_torque{{20, 20, 8}, {true, true, false}, {{false, false, true}, Container::none, 0, false}};
     contacts.clear();
-    append_wall_contacts(rods, without_torque, reach, contacts);
+    append_wall_contacts(rods, without_torque, ranges, contacts);
     REQUIRE(contacts.size() == 1);
     CHECK(contacts.contact[0].arm_j == 0.0);
 }

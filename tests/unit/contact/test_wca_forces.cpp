@@ -22,10 +22,10 @@ struct Pair {
         rods.push_back(0, {5, 5, 5}, {1, 0, 0}, 4.0, 1.0);
         rods.push_back(1, {6, 5, 5 + apart}, {std::cos(angle), std::sin(angle), 0}, 4.0, 1.0);
         const Box box{{10, 10, 10}, {false, false, false}};
-        const std::vector<double> reach(2, 0.5);
+        const std::vector<double> ranges(2, 0.5);
         NeighbourList neighbours(0.5);
-        neighbours.update(rods, box, reach);
-        find_contacts(rods, box, neighbours, reach, contacts);
+        neighbours.update(rods, box, ranges);
+        find_contacts(rods, box, neighbours, ranges, contacts);
     }
 };
 
