@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "jostle/measurement/wall_columns.hpp"
+#include "jostle/parallel/parallel_for.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/scene_walls.hpp"
 #include "jostle/scene/units.hpp"
@@ -107,6 +108,33 @@ void add_spring_columns(const Scene& scene, Series& series) {
         [](const RowState& row, std::size_t k) { return row.stress.springs.m[k]; });
 }
 
+void add_torque_columns(const Scene& scene, Series& series) {
+    series.add_elements(torque_stress_column_names,
+                        {"", unit_of(scene, dimension::stress), "Sigma_torques",
+                         "element of the stress of aligning torques, the geometric part of each; traceless, mean over "
+                         "the steps since the last row",
+                         in_compression},
+                        [](const RowState& row, std::size_t k) {
+                            return row.sums.torque_virial->m[k] / (row.sums.steps * row.volume);
+                        });
+}
+
+void add_force_columns(const Scene& scene, Series& series) {
+    series.add_elements(force_moment_column_names,
+                        {"", unit_of(scene, dimension::stress), "",
+                         "sum over the rods, at this step, of the constant force times how far along it they are from "
+                         "the middle of the box, over the volume: what walls feel more than the mean stress",
+                         ""},
+                        [force = scene.forces.on_rods](const RowState& row, std::size_t k) {
+                            const auto direction = static_cast<int>(k);
+                            const std::vector<Vec3>& centre = row.simulation.rods().centre;
+                            const double middle = 0.5 * row.simulation.box().edges()[direction];
+                            return force[direction] / row.volume *
+                                   parallel_sum<double>(centre.size(),
+                                                        [&](std::size_t i) { return centre[i][direction] - middle; });
+                        });
+}
+
 void add_active_columns(const Scene& scene, Series& series) {
     const std::string stress = unit_of(scene, dimension::stress);
     const std::string sign =
@@ -166,6 +194,8 @@ TableColumns<RowState> series_columns(const Scene& scene) {
     add_contact_columns(scene, series);
     if (scene_walls(scene).any()) add_wall_columns(scene, series);
     if (!scene.springs.file.empty()) add_spring_columns(scene, series);
+    if (has_torques(scene)) add_torque_columns(scene, series);
+    if (scene_walls(scene).any() && scene.forces.on_rods != Vec3{}) add_force_columns(scene, series);
     if (swims(scene)) add_active_columns(scene, series);
     if (scene.output.stress_conventions) add_convention_columns(scene, series);
     return series;

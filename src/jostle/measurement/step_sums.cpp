@@ -54,6 +54,7 @@ void StepSums::add(const StepReport& report) {
     spring_virial += report.spring_virial;
     centre_of_mass_virial += report.centre_of_mass_virial;
     centre_line_virial += report.centre_line_virial;
+    if (torque_virial) *torque_virial += report.torque_virial;
     for (std::size_t wall = 0; wall < max_walls; ++wall) wall_force[wall] += report.wall_force[wall];
     contacts += static_cast<double>(report.contacts);
     active_contacts += static_cast<double>(report.active_contacts);
@@ -70,6 +71,7 @@ void StepSums::stretch(const StepReport& report, const Box& box) {
     rods *= volume;
     for (Mat3* virial : {&collision_virial, &spring_virial, &centre_of_mass_virial, &centre_line_virial})
         *virial = volume * *virial;
+    if (torque_virial) *torque_virial = volume * *torque_virial;
     if (active_stress) active_stress->stretch(by);
     if (field) field->fit(box.edges());
 }
@@ -100,6 +102,7 @@ void StepSums::look_at_swimmers(const Scene& scene, const Simulation& simulation
 void StepSums::start_row() {
     StepSums fresh;
     if (kT) fresh.kT = 0.0;
+    if (torque_virial) fresh.torque_virial.emplace();
     fresh.run_max_overlap = run_max_overlap;
     fresh.active_stress = std::move(active_stress);
     fresh.field = std::move(field);
@@ -113,6 +116,7 @@ NamedNumbers StepSums::to_named() const {
         numbers[name].assign(values.begin(), values.end());
     });
     if (kT) numbers["kT"] = {*kT};
+    if (torque_virial) numbers["torque_virial"].assign(torque_virial->m.begin(), torque_virial->m.end());
     if (active_stress) add_under("active_stress", numbers, active_stress->to_named());
     if (field) add_under("field", numbers, field->to_named());
     return numbers;
@@ -130,6 +134,7 @@ StepSums StepSums::from_named(NamedNumbers numbers, const Scene& scene, const Bo
     };
     for_each_sum(sums, [&](const char* name, auto& sum) { take(name, numbers_of(sum)); });
     if (!scene.schedule.kT.empty()) take("kT", {&sums.kT.emplace(), 1});
+    if (has_torques(scene)) take("torque_virial", sums.torque_virial.emplace().m);
     if (swims(scene)) sums.active_stress = ActiveStress::from_named(taken_under("active_stress", numbers));
     if (scene.output.field_every == 0) return sums;
     NamedNumbers field_so_far = taken_under("field", numbers);
@@ -149,6 +154,7 @@ StepSums first_sums(const Scene& scene, const Simulation& simulation) {
     StepSums sums;
     sums.field = make_field(scene, simulation.box());
     if (!scene.schedule.kT.empty()) sums.kT = 0.0;
+    if (has_torques(scene)) sums.torque_virial.emplace();
     if (!swims(scene)) return sums;
     const Rods& rods = simulation.rods();
     const double row_time = simulation.settings().time_step * static_cast<double>(scene.output.series_every);

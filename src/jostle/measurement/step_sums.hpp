@@ -23,6 +23,7 @@ struct StepSums {
     double rods = 0.0;         ///< summed over the steps
     std::optional<double> kT;  ///< likewise, where a schedule changes it
     Mat3 collision_virial, spring_virial, centre_of_mass_virial, centre_line_virial;
+    std::optional<Mat3> torque_virial;           ///< where the scene has torques
     std::array<double, max_walls> wall_force{};  ///< by the numbers of the walls
     double contacts = 0.0;
     double active_contacts = 0.0;

@@ -41,13 +41,17 @@ double kinetic_pressure(const SeriesTable& series, std::size_t first, bool sprin
     return column_mean(kinetic_column(series, first, springs));
 }
 
-Columns total_stress_columns(const SeriesTable& series, std::size_t first, bool springs) {
+Columns total_stress_columns(const SeriesTable& series, std::size_t first, bool springs, bool torques) {
     Columns total = window_columns(series, first, stress_column_names);
     Columns parts = orientation_stress_columns(series, first);
     const std::vector<double> kinetic = kinetic_column(series, first, springs);
     if (springs) {
         const Columns of_springs = window_columns(series, first, spring_stress_column_names);
         for (std::size_t k = 0; k < 9; ++k) add(parts[k], of_springs[k], 1.0);
+    }
+    if (torques) {
+        const Columns of_torques = window_columns(series, first, torque_stress_column_names);
+        for (std::size_t k = 0; k < 9; ++k) add(parts[k], of_torques[k], 1.0);
     }
     for (std::size_t k = 0; k < 9; ++k) add(total[k], parts[k], 1.0);
     for (const std::size_t diagonal : {0U, 4U, 8U}) add(total[diagonal], kinetic, 1.0);

@@ -89,6 +89,16 @@ Json anisotropy(const Columns& stress, const Json& principal) {
     return entry;
 }
 
+/// A constant force makes the stress along it differ from place to place; at the middle of the box it is that of its
+/// mean, and as much as the moment of the force more.
+Columns with_force_moment(const Scene& scene, const SeriesTable& series, std::size_t first, Columns stress) {
+    if (scene.forces.on_rods == Vec3{}) return stress;
+    const Columns moment = window_columns(series, first, force_moment_column_names);
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t row = 0; row < moment[k].size(); ++row) stress[4 * k][row] += moment[k][row];
+    return stress;
+}
+
 bool all_alike(const Rods& rods) {
     const auto same = [](const std::vector<double>& values) {
         return std::all_of(values.begin(), values.end(), [&](double value) { return value == values.front(); });
@@ -145,7 +155,7 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     const bool springs = !scene.springs.file.empty();
     const auto average_of = [&](const char* name) { return average(from_row(series.column(name), first)); };
     const Columns collision = window_columns(series, first, stress_column_names);
-    const Columns stress = total_stress_columns(series, first, springs);
+    const Columns stress = total_stress_columns(series, first, springs, has_torques(scene));
     const Columns order = window_columns(series, first, order_tensor_column_names);
 
     Json summary;
@@ -169,8 +179,8 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     summary["pressure"] = described(average_of("pressure"), stress_unit);
     summary["pressure_collision"] = described(average_of("pressure_collision"), stress_unit);
     summary["stress"] = tensor_entry(stress, stress_unit);
-    summary["stress"]["definition"] =
-        springs ? "kinetic + orientation + collision + springs" : "kinetic + orientation + collision";
+    summary["stress"]["definition"] = fmt::format("kinetic + orientation + collision{}{}", springs ? " + springs" : "",
+                                                  has_torques(scene) ? " + torques" : "");
     const bool ramped = is_ramped(scene, window);
     const double number = grows ? average_of("N").mean : static_cast<double>(rods.size());
     const double kinetic = ramped ? kinetic_pressure(series, first, springs)
@@ -183,6 +193,9 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
         summary["stress_springs"] =
             tensor_entry(window_columns(series, first, spring_stress_column_names), stress_unit);
     }
+    if (has_torques(scene))
+        summary["stress_torques"] =
+            tensor_entry(window_columns(series, first, torque_stress_column_names), stress_unit);
     if (swims(scene)) summarise_active_stress(series, first, stress_unit, summary);
     summary["principal_stresses"] = mean_principal_stresses(stress, stress_unit);
     summary["principal_stresses_collision"] = mean_principal_stresses(collision, stress_unit);
@@ -213,8 +226,9 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     for (const WallGroup& group : wall_groups(walls))
         if (in_equilibrium)
             checks[group.column + "_ratio"] =
-                wall_pressure_check(group, walls, stress, from_row(series.column(group.column), first));
-    if (in_equilibrium && all_alike(rods) && !walls.any())
+                wall_pressure_check(group, walls, with_force_moment(scene, series, first, stress),
+                                    from_row(series.column(group.column), first));
+    if (in_equilibrium && all_alike(rods) && !walls.any() && !has_torques(scene))
         checks["collision_stress_ratio"] = collision_stress_ratio_check(
             collision, order, from_row(series.column("Z"), first), rods.length.front() / rods.diameter.front());
     summary["checks"] = checks;

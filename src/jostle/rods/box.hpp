@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
+#include <utility>
 
 #include "jostle/rods/rods.hpp"
 #include "jostle/rods/walls.hpp"
@@ -22,11 +24,25 @@ public:
     const Vec3& edges() const { return edges_; }
     const std::array<bool, 3>& periodic() const { return periodic_; }
     const Walls& walls() const { return walls_; }
+    /// Rods that no force moves (theory, section 6), with ids from 0; null: none.
+    const std::shared_ptr<const Rods>& fixed_rods() const { return fixed_rods_; }
     bool is_periodic() const { return periodic_[0] && periodic_[1] && periodic_[2]; }
 
     /// Between the walls.
     double volume() const { return share_of_box(walls_.container) * (edges_.x * edges_.y * edges_.z); }
     double longest_edge() const { return std::max({edges_.x, edges_.y, edges_.z}); }
+
+    /// The same box with other edges, or with fixed rods.
+    Box with_edges(const Vec3& edges) const {
+        Box other = *this;
+        other.edges_ = edges;
+        return other;
+    }
+    Box with_fixed_rods(std::shared_ptr<const Rods> fixed) const {
+        Box other = *this;
+        other.fixed_rods_ = std::move(fixed);
+        return other;
+    }
 
     /// The point that lies at these parts of the edges, 0 to 1 within the box.
     Vec3 point_at(const Vec3& parts) const { return {parts.x * edges_.x, parts.y * edges_.y, parts.z * edges_.z}; }
@@ -43,6 +59,7 @@ private:
     Vec3 edges_{1, 1, 1};
     std::array<bool, 3> periodic_{true, true, true};
     Walls walls_{};
+    std::shared_ptr<const Rods> fixed_rods_{};
 };
 
 }  // namespace jostle

@@ -63,6 +63,7 @@ struct Scene {
         std::string file;    // for start = "file"; relative to the scene's folder
         std::string run{};   // for start = "run": the folder of a run, relative to the scene's folder ...
         std::optional<std::uint64_t> frame{};  // ... and the number of its frame; "auto" (empty): its last state
+        std::string fixed{};                   // a file of rods that do not move; relative to the scene's folder
         bool operator==(const RodsTable&) const = default;
     } rods;
 
@@ -88,6 +89,14 @@ struct Scene {
         double reversal_rate = 0.0;
         bool operator==(const MotionTable&) const = default;
     } motion;
+
+    struct ForcesTable {
+        Vec3 on_rods{};                 // on every rod, as gravity
+        bool drift = false;             // also along directions in which nothing stops the rods
+        double alignment_energy = 0.0;  // epsilon of -epsilon (n.h)^2
+        Vec3 alignment_axis{0, 0, 1};   // h; of any length but 0
+        bool operator==(const ForcesTable&) const = default;
+    } forces;
 
     GrowthLaw growth;  // rate 0: none
 

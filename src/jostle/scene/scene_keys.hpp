@@ -95,6 +95,12 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("motion", "tumble_rate", scene.motion.tumble_rate, Quantity{dim::rate, zero_or_positive});
     visit("motion", "tumble_time", scene.motion.tumble_time, Quantity{dim::time, positive, true});
     visit("motion", "reversal_rate", scene.motion.reversal_rate, Quantity{dim::rate, zero_or_positive});
+    visit("forces", "on_rods", scene.forces.on_rods, Quantity{dim::force, {-Range::largest, Range::largest}});
+    visit("forces", "drift", scene.forces.drift, Plain{});
+    visit("forces", "alignment_energy", scene.forces.alignment_energy,
+          Quantity{dim::energy, {-Range::largest, Range::largest}});
+    visit("forces", "alignment_axis", scene.forces.alignment_axis,
+          Quantity{dim::none, {-Range::largest, Range::largest}});
     visit("growth", "rate", scene.growth.rate, Quantity{dim::speed, zero_or_positive});
     visit("growth", "rate_deviation", scene.growth.rate_deviation, Quantity{dim::none, {0.0, 0.5}});
     visit("growth", "division", scene.growth.division, Plain{});

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jostle/motion/external_forces.hpp"
+#include "jostle/scene/scene_walls.hpp"
+
 namespace jostle {
 
 namespace {
@@ -31,11 +34,27 @@ std::vector<std::unique_ptr<Motion>> motions_of(const Scene& scene) {
     std::vector<std::unique_ptr<Motion>> motions;
     if (thermal_energy(scene) > 0.0) motions.push_back(std::make_unique<BrownianMotion>(thermal_energy(scene)));
     if (swims(scene)) motions.push_back(std::make_unique<SelfPropulsion>(swimming_of(scene)));
+    if (const Vec3& force = scene.forces.on_rods; force != Vec3{})
+        motions.push_back(std::make_unique<ForceOnRods>(force, drifts(scene)));
+    if (scene.forces.alignment_energy != 0.0)
+        motions.push_back(std::make_unique<AligningTorque>(scene.forces.alignment_energy, scene.forces.alignment_axis));
     return motions;
 }
 
 bool swims(const Scene& scene) {
     return scene.motion.self_propulsion != 0.0 || !scene.schedule.self_propulsion.empty();
+}
+
+bool has_torques(const Scene& scene) {
+    return scene.forces.alignment_energy != 0.0;
+}
+
+bool drifts(const Scene& scene) {
+    const std::array<bool, 3> walled = walled_directions(scene);
+    bool drifts = false;
+    for (std::size_t k = 0; k < 3; ++k)
+        drifts = drifts || (!walled[k] && scene.forces.on_rods[static_cast<int>(k)] != 0.0);
+    return drifts;
 }
 
 bool keeps_equilibrium(const Scene& scene) {

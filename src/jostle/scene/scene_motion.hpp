@@ -22,6 +22,12 @@ Swimming swimming_of(const Scene& scene);
 /// Whether its rods swim, now or later.
 bool swims(const Scene& scene);
 
+/// Whether torques turn its rods (forces.alignment_energy).
+bool has_torques(const Scene& scene);
+
+/// Whether a constant force drags its rods along a direction in which no wall stops them.
+bool drifts(const Scene& scene);
+
 /// All motions of the scene, in the order in which a step adds them up.
 std::vector<std::unique_ptr<Motion>> motions_of(const Scene& scene);
 

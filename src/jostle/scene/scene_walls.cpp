@@ -17,19 +17,8 @@ namespace {
 
 using Three = std::array<bool, 3>;
 
-/// Directions in which walls of the scene end the box.
-Three walled(const Scene& scene) {
-    Three ends = scene.walls.faces;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const bool along_tube =
-            scene.walls.container == Container::tube && k == static_cast<std::size_t>(scene.walls.axis);
-        ends[k] = ends[k] || (scene.walls.container != Container::none && !along_tube);
-    }
-    return ends;
-}
-
 void check_periodic(const Scene& scene) {
-    const Three ends = walled(scene);
+    const Three ends = walled_directions(scene);
     Three open = scene.box.periodic;
     for (std::size_t k = 0; k < 3; ++k) open[k] = open[k] && !ends[k];
     if (open == scene.box.periodic) return;
@@ -65,7 +54,7 @@ void check_container(const Scene& scene, double rods_volume) {
 
 /// What is left for the centres of ends between walls, direction by direction; infinite where nothing ends the box.
 Vec3 room_of_ends(const Scene& scene, const Vec3& edges, double thickest) {
-    const Three ends = walled(scene);
+    const Three ends = walled_directions(scene);
     Vec3 room;
     for (int k = 0; k < 3; ++k) room[k] = ends[static_cast<std::size_t>(k)] ? edges[k] - thickest : INFINITY;
     return room;
@@ -121,6 +110,16 @@ void check_room_of_rods(const Scene& scene, double rods_volume, double longest, 
 
 Walls scene_walls(const Scene& scene) {
     return {scene.walls.faces, scene.walls.container, static_cast<int>(scene.walls.axis), scene.walls.torque};
+}
+
+Three walled_directions(const Scene& scene) {
+    Three ends = scene.walls.faces;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const bool along_tube =
+            scene.walls.container == Container::tube && k == static_cast<std::size_t>(scene.walls.axis);
+        ends[k] = ends[k] || (scene.walls.container != Container::none && !along_tube);
+    }
+    return ends;
 }
 
 void validate_walls(const Scene& scene, double rods_volume, double longest, double thickest) {

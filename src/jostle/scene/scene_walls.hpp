@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "jostle/rods/walls.hpp"
 #include "jostle/scene/scene.hpp"
 
@@ -7,6 +9,9 @@ namespace jostle {
 
 /// The walls of the scene's box.
 Walls scene_walls(const Scene& scene);
+
+/// Directions in which walls end the box: faces, and those across a container.
+std::array<bool, 3> walled_directions(const Scene& scene);
 
 /// Whether the walls of a scene go together with its box and its rods, the longest (cylinder part) and thickest of
 /// which are given; cells that grow get longer.

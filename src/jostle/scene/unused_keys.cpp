@@ -35,6 +35,11 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
         unused.push_back({"walls.axis", "is not used without a tube", "Set container = \"tube\", or remove axis"});
     if (!scene_walls(scene).any())
         unused.push_back({"walls.torque", "is not used without walls", "Set faces or container, or remove torque"});
+    if (scene.forces.on_rods == Vec3{})
+        unused.push_back({"forces.drift", "is not used without a force on the rods", "Set on_rods, or remove drift"});
+    if (scene.forces.alignment_energy == 0.0)
+        unused.push_back({"forces.alignment_axis", "is not used with forces.alignment_energy = 0",
+                          "Set alignment_energy, or remove alignment_axis"});
     if (!swims(scene))
         for (const char* key : {"motion.self_propulsion_deviation", "motion.tumble_rate", "motion.tumble_time",
                                 "motion.reversal_rate", "output.active_stress_lag"})

@@ -183,6 +183,22 @@ void check_springs(const Scene& scene) {
                "Remove [springs] or [growth]");
 }
 
+/// Whether something stops the rods that a force drags.
+void check_forces(const Scene& scene) {
+    const Scene::ForcesTable& forces = scene.forces;
+    if (norm(forces.alignment_axis) == 0.0)
+        refuse("forces.alignment_axis", text(forces.alignment_axis), "has no direction", "a vector that is not zero",
+               "Use [0, 0, 1]");
+    if (forces.drift || !drifts(scene)) return;
+    const std::array<bool, 3> walled = walled_directions(scene);
+    Vec3 held = forces.on_rods;
+    for (std::size_t k = 0; k < 3; ++k)
+        if (!walled[k]) held[static_cast<int>(k)] = 0.0;
+    refuse("forces.on_rods", text(forces.on_rods),
+           "drags the rods without end along directions in which no wall stops them", text(held) + ", or drift = true",
+           "Close the box there (walls.faces), or set forces.drift = true if the rods are to fall for ever");
+}
+
 void check_solver(const Scene& scene) {
     if (scene.contact.model == ContactModel::wca) {
         if (!scene.contact.energy && scene.fluid.kT == 0.0)
@@ -216,7 +232,8 @@ void check_time(const Scene& scene) {
                fmt::format("is given beside time.step = {}", *scene.time.step), "one of the two, not both",
                "Keep one of them");
     const bool moves = thermal_energy(scene_at_its_hardest(scene)) > 0.0 || swims(scene) || squeezes_box(scene) ||
-                       scene.growth.rate > 0.0 || !scene.springs.file.empty();
+                       scene.growth.rate > 0.0 || !scene.springs.file.empty() || scene.forces.on_rods != Vec3{} ||
+                       scene.forces.alignment_energy != 0.0;
     if (!scene.time.step && !scene.time.rms_step && !moves)
         refuse("time.step", "", "is missing, and nothing in the scene moves that a step could be found from",
                "a time, greater than 0", "Add step = 1e-3 under [time]");
@@ -278,8 +295,9 @@ const std::vector<TogetherCheck>& together_checks() {
         {validate_fluid, {"mobility", "rods", "box", "motion", "growth", "springs", "schedule", "contact", "solver"}},
         {check_schedule, {"schedule", "box", "walls", "growth"}},
         {check_springs, {"springs", "growth"}},
+        {check_forces, {"forces", "walls"}},
         {check_solver, {"contact", "solver", "fluid"}},
-        {check_time, {"time", "motion", "fluid", "growth", "springs", "schedule"}},
+        {check_time, {"time", "motion", "fluid", "growth", "springs", "schedule", "forces"}},
         {check_growth, {"growth", "rods", "mobility"}},
         {check_contact_range, {"contact", "rods", "growth"}}};
     return checks;

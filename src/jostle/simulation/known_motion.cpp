@@ -1,5 +1,7 @@
 #include "jostle/simulation/known_motion.hpp"
 
+#include <utility>
+
 #include "jostle/math/rotation.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
@@ -14,19 +16,27 @@ void add(const Velocities& part, Velocities& sum) {
     });
 }
 
-/// M is applied once to the sum of the motions' forces; and to those of springs, whose velocities their stress needs
-/// (theory 2.7).
+/// M is applied once to the sum of the forces of motions and springs; stresses need the velocities that they give
+/// (theory 2.7, 2.9).
 void add_velocities_of_forces(const State& state, std::span<const std::unique_ptr<Motion>> motions,
                               const MobilityOperator& mobility, const StepContext& context, KnownMotion& known) {
-    if (const auto forces = sum_of_forces(motions, state.rods, context)) {
-        Velocities velocities;
-        mobility.apply(*forces, velocities);
-        add(velocities, known.velocity);
+    known.exerted = sum_of_forces(motions, state.rods, context).value_or(Forces{0});
+    known.by_forces.resize(0);
+    if (known.exerted.size() == 0 && state.springs.empty()) return;
+    Forces sum = known.exerted;
+    if (!state.springs.empty()) {
+        known.pulls = spring_pulls(state.springs, state.rods, state.box);
+        Forces of_springs = spring_forces(state.springs, known.pulls, state.rods);
+        if (sum.size() == 0)
+            sum = std::move(of_springs);
+        else
+            parallel_for(sum.size(), [&](std::size_t i) {
+                sum.force[i] += of_springs.force[i];
+                sum.torque[i] += of_springs.torque[i];
+            });
     }
-    if (state.springs.empty()) return;
-    known.pulls = spring_pulls(state.springs, state.rods, state.box);
-    mobility.apply(spring_forces(state.springs, known.pulls, state.rods), known.by_springs);
-    add(known.by_springs, known.velocity);
+    mobility.apply(sum, known.by_forces);
+    add(known.by_forces, known.velocity);
 }
 
 }  // namespace

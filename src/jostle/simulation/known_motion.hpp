@@ -16,7 +16,8 @@ struct KnownMotion {
     Configuration end;                 ///< (N) where it would take the rods
     std::vector<double> displacement;  ///< (N) by it, of any point of the rod, at most
     std::vector<SpringPull> pulls;     ///< of the springs
-    Velocities by_springs;             ///< (N) their part of U_known; (0) without springs
+    Forces exerted{0};                 ///< (N) by the motions alone; (0) where they exert none
+    Velocities by_forces;              ///< (N) part of U_known by `exerted` and springs; (0) without both
 };
 
 /// Makes `known` that of this state.

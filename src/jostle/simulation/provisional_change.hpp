@@ -46,7 +46,7 @@ public:
             if (const auto direction = static_cast<int>(k);
                 box_before_.periodic()[k])  // else a plane moves, and no rod
                 stretch_[direction] = (*edges)[direction] / box_before_.edges()[direction];
-        state.box = Box(*edges, box_before_.periodic(), box_before_.walls());
+        state.box = box_before_.with_edges(*edges);
         parallel_for(state.rods.size(), [&](std::size_t i) {
             for (int k = 0; k < 3; ++k) state.rods.centre[i][k] *= stretch_[k];
         });

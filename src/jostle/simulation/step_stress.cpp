@@ -8,15 +8,15 @@ namespace jostle {
 
 namespace {
 
-/// Axes after the known motion and one half of what contact forces (and springs) turn them, of the rods in contact.
+/// Axes after the known motion and one half of what contact forces (and other ones) turn them, of the rods in contact.
 void find_half_way_axes(const ResolvedStep& step, double time_step, std::vector<Vec3>& half_way_axis) {
     half_way_axis.resize(step.state.rods.size());
     parallel_for(step.solution.rods.size(), [&](std::size_t k) {
         const std::uint32_t row = step.solution.rods[k];
         const Vec3& axis = step.state.rods.axis[row];
         const Vec3 collision = cross(axis, step.solution.velocities[k].axis_rate);
-        const Vec3 by_springs = step.state.springs.empty() ? Vec3{} : step.known.by_springs.angular[row];
-        const Vec3 turned = step.known.velocity.angular[row] - 0.5 * by_springs;
+        const Vec3 by_forces = step.known.by_forces.size() == 0 ? Vec3{} : step.known.by_forces.angular[row];
+        const Vec3 turned = step.known.velocity.angular[row] - 0.5 * by_forces;
         half_way_axis[row] = rotated(axis, time_step * (turned + 0.5 * collision));
     });
 }
@@ -41,11 +41,11 @@ void measure_collision_stress(const ResolvedStep& step, const SimulationSettings
     report.centre_line_virial = centre_line_virial(step.contacts, gamma, rods, distance);
 }
 
-/// Theory 1, eq. (1.16): the forces of springs as the step began, with moments half way through what springs and
-/// contacts do in it (eq. 1.17).
-void measure_spring_stress(const ResolvedStep& step, double time_step, StepReport& report) {
+/// Theory 1, eqs. (1.16) and (1.22): the forces of springs, and the torques of motions, as the step began, with moments
+/// half way through what forces do in it (eq. 1.17).
+void measure_stress_of_known_forces(const ResolvedStep& step, double time_step, StepReport& report) {
     const Rods& rods = step.state.rods;
-    Velocities by_forces = step.known.by_springs;
+    Velocities by_forces = step.known.by_forces;
     parallel_for(step.solution.rods.size(), [&](std::size_t k) {
         const std::uint32_t row = step.solution.rods[k];
         by_forces.linear[row] += step.solution.velocities[k].centre;
@@ -58,8 +58,13 @@ void measure_spring_stress(const ResolvedStep& step, double time_step, StepRepor
         half_way.centre[i] = rods.centre[i] + half_step * by_forces.linear[i];
         half_way.axis[i] = rotated(rods.axis[i], half_step * by_forces.angular[i]);
     });
-    report.spring_virial =
-        sum_of_spring_stresses(step.state.springs, step.known.pulls, rods, half_way.centre, half_way.axis);
+    if (!step.state.springs.empty())
+        report.spring_virial =
+            sum_of_spring_stresses(step.state.springs, step.known.pulls, rods, half_way.centre, half_way.axis);
+    const std::vector<Vec3>& torque = step.known.exerted.torque;
+    report.torque_virial = parallel_sum<Mat3>(torque.size(), [&](std::size_t i) {
+        return geometric_stress_of_rod(half_way.axis[i], rods.length[i], rods.diameter[i], torque[i]);
+    });
 }
 
 /// Theory 6: the sum of the contact forces on each wall.
@@ -74,7 +79,7 @@ void measure_wall_forces(const ResolvedStep& step, StepReport& report) {
 
 void measure_stress(const ResolvedStep& step, const SimulationSettings& settings, std::vector<Vec3>& half_way_axis,
                     StepReport& report, CollisionMoments& moments) {
-    if (!step.state.springs.empty()) measure_spring_stress(step, settings.time_step, report);
+    if (step.known.by_forces.size() > 0) measure_stress_of_known_forces(step, settings.time_step, report);
     if (settings.corrects_brownian_motion()) find_half_way_axes(step, settings.time_step, half_way_axis);
     const std::span<const Vec3> axis = settings.corrects_brownian_motion() ? half_way_axis : step.state.rods.axis;
     measure_collision_stress(step, settings, axis, report, moments);

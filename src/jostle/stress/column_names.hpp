@@ -22,6 +22,13 @@ inline constexpr std::array<const char*, 9> active_stress_column_names = {
 inline constexpr std::array<const char*, 9> spring_stress_column_names = {
     "stress_springs_xx", "stress_springs_xy", "stress_springs_xz", "stress_springs_yx", "stress_springs_yy",
     "stress_springs_yz", "stress_springs_zx", "stress_springs_zy", "stress_springs_zz"};
+/// The same of aligning torques, where there are some.
+inline constexpr std::array<const char*, 9> torque_stress_column_names = {
+    "stress_torques_xx", "stress_torques_xy", "stress_torques_xz", "stress_torques_yx", "stress_torques_yy",
+    "stress_torques_yz", "stress_torques_zx", "stress_torques_zy", "stress_torques_zz"};
+/// Of a constant force between walls.
+inline constexpr std::array<const char*, 3> force_moment_column_names = {"force_moment_x", "force_moment_y",
+                                                                         "force_moment_z"};
 /// The same of two other conventions, with `output.stress_conventions`.
 inline constexpr std::array<const char*, 9> centre_of_mass_column_names = {
     "centre_of_mass_xx", "centre_of_mass_xy", "centre_of_mass_xz", "centre_of_mass_yx", "centre_of_mass_yy",

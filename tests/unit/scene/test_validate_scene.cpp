@@ -80,7 +80,7 @@ TEST_CASE("no quantity may be nan, infinite or out of bounds, whichever key it i
     std::string key;
     int quantities = 0;
     while (set_quantity(counted, quantities, 1.0, key)) ++quantities;
-    CHECK(quantities == 38);
+    CHECK(quantities == 41);
     for (int index = 0; index < quantities; ++index)
         for (const double value : {not_a_number, infinity, -infinity, 1e300, -1e300}) {
             std::string changed, message;
@@ -164,6 +164,15 @@ TEST_CASE("keys beside keys") {
               s.growth.rate = 0.1;
               s.growth.division_length = 12.0;
           }) == "springs.file");
+    CHECK(refused_key([](Scene& s) { s.forces.on_rods = {0, 0, -1}; }) == "forces.on_rods");
+    CHECK(refused_key([](Scene& s) { s.forces.on_rods = {0, 0, -1}, s.forces.drift = true; }) == "");
+    CHECK(refused_key([](Scene& s) { s.forces.drift = true; }) == "forces.drift");
+    CHECK(refused_key([](Scene& s) { s.forces.alignment_energy = 1.0; }) == "");
+    CHECK(refused_key([](Scene& s) { s.forces.alignment_axis = {1, 0, 0}; }) == "forces.alignment_axis");
+    CHECK(refused_key([](Scene& s) {
+              s.forces.alignment_energy = 1.0;
+              s.forces.alignment_axis = {0, 0, 0};
+          }) == "forces.alignment_axis");
     CHECK(refused_key([](Scene& s) { s.rods.axis = {0, 1, 0}; }) == "rods.axis");
     CHECK(refused_key([](Scene& s) { s.rods.start = StartKind::file; }) == "rods.file");
     CHECK(refused_key([](Scene& s) {

@@ -42,12 +42,23 @@ public:
         if (chance()) scene.output.field_every = 1 + random_() % 1000;
         if (scene.output.field_every > 0 && chance()) scene.output.field_spacing = number(0.1, 10);
         if (chance()) scene.springs.file = text() + "springs.csv";
+        draw_forces(scene);
         if (scene.motion.self_propulsion > 0.0 && chance()) scene.output.active_stress_lag = number(1e-3, 1e3);
         return scene;
     }
 
 private:
     bool chance() { return random_() % 2 == 0; }
+
+    void draw_forces(Scene& scene) {
+        if (chance()) {
+            for (int k = 0; k < 3; ++k) scene.forces.on_rods[k] = number(1e-12, 1e-9);
+            scene.forces.drift = true;
+        }
+        if (!chance()) return;
+        scene.forces.alignment_energy = -number(1e-12, 1e-9);
+        for (int k = 0; k < 3; ++k) scene.forces.alignment_axis[k] = number(1e-3, 10);
+    }
 
     /// Between the bounds, uniform in the logarithm, with all bits of the mantissa in use; sometimes a round number.
     double number(double lower, double upper) {
