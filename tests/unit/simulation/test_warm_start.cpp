@@ -45,7 +45,7 @@ Scene colony(WarmStarts warm_start) {
     return scene;
 }
 
-constexpr Box open_space = {{1000, 1000, 1000}, {false, false, false}};
+const Box open_space = {{1000, 1000, 1000}, {false, false, false}};
 
 Rods one_cell() {
     Rods rods;
