@@ -51,7 +51,7 @@ VALUES = [
     ("motion", "self_propulsion_deviation", 0.5, "is not used with motion.self_propulsion = 0", "Set self_propulsion"),
     ("motion", "reversal_rate", 0.0, "is not used with motion.self_propulsion = 0", "or remove it"),
     ("forces", "on_rods", [0, 0, -1], "drags the rods without end", "[0, 0, 0], or drift = true"),
-    ("forces", "on_rods", [0, Verbatim("nan"), 0], "is not a finite number", "a finite number"),
+    ("forces", "on_rods", Verbatim("[0, nan, 0]"), "is not a finite number", "a finite number"),
     ("forces", "on_rods", [0, -1], "has 2 elements", "three elements: x, y, z"),
     ("forces", "drift", True, "is not used without a force on the rods", "Set on_rods"),
     ("forces", "alignment_energy", Verbatim("inf"), "is not a finite number", "a finite number"),
