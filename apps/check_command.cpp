@@ -282,6 +282,7 @@ ExitCode check(const Scene& scene, const std::string& scene_path) {
     const auto limits = step_limits(scene, *model, box, population.rods, springs);
     require_short_step(limits, dt);
     const auto field = make_field(scene, box);
+    const auto fixed = fixed_rods(scene, scene_path);
 
     std::printf("%s\n# what follows from it\n", to_toml(scene).c_str());
     print("units", units_text(scene));
@@ -291,6 +292,9 @@ ExitCode check(const Scene& scene, const std::string& scene_path) {
     if (const std::string warning = start_warning(scene, phi); !warning.empty()) print("WARNING", warning);
     print("box", fmt::format("{:.6g} x {:.6g} x {:.6g} {}", box.edges().x, box.edges().y, box.edges().z,
                              readable_unit_of(scene, dimension::length)));
+    if (fixed)
+        print("fixed rods", fmt::format("{}, volume fraction {:.6g} but for their overlaps", fixed->size(),
+                                        total_volume(*fixed) / box.volume()));
     print_schedule(scene, box, population.volume);
     print("time step", with_unit(dt, scene, dimension::time));
     for (const std::string& warning : warnings_of_step(limits, dt)) print("WARNING", warning);

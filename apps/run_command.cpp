@@ -1,5 +1,7 @@
 #include "run_command.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -49,6 +51,19 @@ void write_scene(const RunScene& scene, const RunDirectory& directory) {
     replace_file(directory.file("resolved.toml"), scene.resolved);
 }
 
+/// For those who look at the run.
+void write_fixed_rods(const Box& box, const RunDirectory& directory) {
+    if (!box.fixed_rods()) return;
+    const Rods& fixed = *box.fixed_rods();
+    std::string text = "x,y,z,nx,ny,nz,length,diameter\n";
+    for (std::size_t f = 0; f < fixed.size(); ++f) {
+        const Vec3 &r = fixed.centre[f], &n = fixed.axis[f];
+        text +=
+            fmt::format("{},{},{},{},{},{},{},{}\n", r.x, r.y, r.z, n.x, n.y, n.z, fixed.length[f], fixed.diameter[f]);
+    }
+    replace_file(directory.file("fixed.csv"), text);
+}
+
 /// Moves what is in the folder aside. Result: the folder, by a name that does not follow what was moved, as "." would.
 std::string freed(const std::string& folder, bool quiet) {
     const std::string place = absolute_folder(folder);
@@ -74,6 +89,7 @@ ExitCode start_run(const RunOptions& options, const RunScene& scene, std::string
     if (options.fresh) folder = freed(folder, options.quiet);
     const RunDirectory directory(folder);
     write_scene(scene, directory);
+    write_fixed_rods(simulation.box(), directory);
     Measurement measurement(scene.scene, simulation);
     RunFiles files(directory, scene.scene, scene.resolved, simulation, measurement.sums());
     return Run(options, scene, simulation, measurement, files, directory, start).go();
@@ -89,10 +105,13 @@ ExitCode resume_run(const RunOptions& options, const RunScene& scene, const RunD
                                            return springs_from_file(scene.scene, scene.path, rods, rods.size());
                                        }),
                          scene.scene.motion.reversal_rate > 0.0, springs_path(scene.scene, scene.path));
+    require_same_fixed_rods(checkpoint, in_scene_file(scene.path, [&] { return fixed_rods(scene.scene, scene.path); }),
+                            scene.scene.rods.fixed);
     StepSums sums = StepSums::from_named(std::move(checkpoint.sums), scene.scene, checkpoint.state.box);
     Simulation simulation = assemble(scene.scene, std::move(checkpoint.state));
     RunFiles files(directory, scene.scene, scene.resolved, simulation, checkpoint.files);
     write_scene(scene, directory);  // it may have another end, and what was there may be damaged
+    write_fixed_rods(simulation.box(), directory);
     if (!options.quiet && !options.json)
         std::fprintf(stderr, "jostle: going on from step %llu\n",
                      static_cast<unsigned long long>(checkpoint.state.clock.step));

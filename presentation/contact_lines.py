@@ -42,8 +42,11 @@ def _of_frame(frame, rows):
     here = {name: values[there] for name, values in here.items()}
     i, j = i[there], j[there]
     normal = np.stack([here[f"normal_{axis}"] for axis in "xyz"], axis=1)
-    # A wall is on the side that the normal comes from; there i is j, and the line goes from the rod to the wall.
-    at_wall = here["wall"] >= 0 if "wall" in here else np.zeros(len(i), bool)
+    # A wall, or a fixed rod, is on the side that the normal comes from; there i is j, and the line goes from the rod to it.
+    at_wall = np.zeros(len(i), bool)
+    for name in ("wall", "fixed"):
+        if name in here:
+            at_wall |= here[name] >= 0
     normal[at_wall] *= -1.0
     # Both ends as they were when the forces were found, at the begin of the step; the first rod's place is that at its end.
     arm = np.where(at_wall, here["arm_j"], here["arm_i"])

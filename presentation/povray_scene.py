@@ -5,6 +5,7 @@ import numpy as np
 ASPECTS = (4.0 / 3.0, 3.2)        # width over height of the picture, narrowest and widest
 FIELD_OF_VIEW = np.radians(24.0)  # small: rods far away look as long as those near by
 HEAD = (0.84, 0.37, 0.0)          # vermillion: told from viridis by everybody
+FIXED = (0.45, 0.45, 0.45)
 EDGE = (0.35, 0.35, 0.35)
 
 SETTINGS = """\
@@ -26,14 +27,23 @@ background {{ rgb 1.0 }}
 """
 
 
-def scene(frame, camera, colours, heads):
-    """The text of the scene. colours: (N, 3), sRGB in 0..1; heads: whether the end that swims ahead is marked."""
+def scene(frame, camera, colours, heads, fixed=None):
+    """The text of the scene. colours: (N, 3), sRGB in 0..1; heads: whether the end that swims ahead is marked; fixed: rods that
+    do not move, as `RunFolder.fixed_rods` has them."""
     parts = [SETTINGS.format(tall=round(3200 / camera.aspect)), camera.text(), lights(frame, camera), box_edges(frame)]
     for ends, diameter, colour in zip(frame.ends(), frame.diameter, colours):
         parts.append(rod(ends, 0.5 * diameter, colour))
+    parts += fixed_rods(fixed) if fixed else []
     if heads:
         parts += [head(*of_rod) for of_rod in zip(frame.ends()[:, 1], frame.axis, frame.length, 0.5 * frame.diameter)]
     return "".join(parts)
+
+
+def fixed_rods(fixed):
+    centre = np.column_stack([fixed[name] for name in "xyz"])
+    reach = 0.5 * fixed["length"][:, None] * np.column_stack([fixed[name] for name in ("nx", "ny", "nz")])
+    ends = np.stack((centre - reach, centre + reach), axis=1)
+    return [rod(pair, 0.5 * diameter, FIXED) for pair, diameter in zip(ends, fixed["diameter"])]
 
 
 def rod(ends, radius, colour):

@@ -18,12 +18,12 @@ LEGEND = 0.075                  # height of the strip, in widths of the picture
 SCENE, DRAWN, PICTURE = "view.pov", "drawn.png", "view.png"
 
 
-def draw(frame, folder, width, camera, colours, way, propelled, time="", name=PICTURE):
+def draw(frame, folder, width, camera, colours, way, propelled, time="", name=PICTURE, fixed=None):
     """Makes view.pov and a picture in `folder`; colours: (N, 3). Result: "", or why there is no picture."""
     povray = shutil.which("povray")
     if povray is None:
         return "povray is not installed (apt-get install povray)"
-    (folder / SCENE).write_text(povray_scene.scene(frame, camera, colours, propelled), encoding="ascii")
+    (folder / SCENE).write_text(povray_scene.scene(frame, camera, colours, propelled, fixed), encoding="ascii")
     height = round(width / camera.aspect)
     # Started in the folder: Debian's povray may read and write there, wherever it is.
     status, errors = child_program.run([povray, f"+I{SCENE}", f"+O{DRAWN}", f"+W{width}", f"+H{height}", "+A0.1",

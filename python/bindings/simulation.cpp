@@ -175,6 +175,7 @@ py::dict SimulationInPython::contacts() const {
     py::array_t<std::uint64_t> id({rows, py::ssize_t{2}});
     py::array_t<std::int32_t> image({rows, py::ssize_t{3}});
     py::array_t<std::int32_t> wall(rows);
+    py::array_t<std::int64_t> fixed(rows);
     std::vector<double> arm_i(count), arm_j(count), gap(count), force(count);
     std::vector<Vec3> normal(count);
     const auto order = order_of_ids(simulation_.contacts(), simulation_.contact_ids());
@@ -183,6 +184,7 @@ py::dict SimulationInPython::contacts() const {
         std::copy(contact.id.begin(), contact.id.end(), id.mutable_data(static_cast<py::ssize_t>(l), 0));
         std::copy(contact.image.begin(), contact.image.end(), image.mutable_data(static_cast<py::ssize_t>(l), 0));
         wall.mutable_at(static_cast<py::ssize_t>(l)) = contact.wall;
+        fixed.mutable_at(static_cast<py::ssize_t>(l)) = contact.fixed;
         normal[l] = contact.normal;
         arm_i[l] = contact.arm[0];
         arm_j[l] = contact.arm[1];
@@ -193,6 +195,7 @@ py::dict SimulationInPython::contacts() const {
     columns["id"] = id;
     columns["image"] = image;
     columns["wall"] = wall;
+    columns["fixed"] = fixed;
     columns["normal"] = array_of(std::span<const Vec3>(normal));
     columns["arm_i"] = array_of(std::span<const double>(arm_i));
     columns["arm_j"] = array_of(std::span<const double>(arm_j));

@@ -51,6 +51,11 @@ class RunFolder:
         """run.json as a dict: version, processor, and every start of the command with its reason to end."""
         return self._read("run.json", json.loads)
 
+    @cached_property
+    def fixed_rods(self):
+        """{x, y, z, nx, ny, nz, length, diameter: (rods) array} of rods that do not move; None where there are none."""
+        return self.table("fixed.csv") if (self.folder / "fixed.csv").exists() else None
+
     def table(self, name):
         """{name: (rows) array} of a table: series.csv, contacts.csv, lineage.csv, field.csv."""
         return self._read(name, columns_of)

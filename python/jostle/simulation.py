@@ -17,7 +17,7 @@ from .step_report import Clock, StepFailure, StepReport
 from .stress import orientation_stress
 
 CONTACT = np.dtype([("id_i", np.uint64), ("id_j", np.uint64), ("image", np.int32, 3), ("force", float), ("gap", float),
-                    ("normal", float, 3), ("arm_i", float), ("arm_j", float), ("wall", np.int32)])
+                    ("normal", float, 3), ("arm_i", float), ("arm_j", float), ("wall", np.int32), ("fixed", np.int64)])
 LINEAGE = np.dtype([("birth", bool), ("id", np.uint64), ("mother", np.uint64), ("length", float)])
 
 
@@ -229,7 +229,8 @@ class Simulation:
         id_i < id_j; image (3), box edges by which j is displaced; force >= 0; gap, length, before the step; normal (3),
         unit vector from i to j; arm_i, arm_j, length, along the axes from the centres; wall, -1 between rods. With a wall
         id_i = id_j is the rod, the normal is from the wall to it, and wall is 0, 1 for the lower and upper face across x, 2, 3
-        across y, 4, 5 across z, 6 for a sphere or tube.
+        across y, 4, 5 across z, 6 for a sphere or tube. With a fixed rod it is the same, arm_i is along the fixed rod, and fixed
+        is its number in the file, from 0; -1 else.
         """
         columns = self._core.contacts()
         table = np.empty(len(columns["force"]), CONTACT)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "jostle/contact/fixed_rod_search.hpp"
 #include "jostle/contact/pair_contacts.hpp"
 #include "jostle/contact/wall_contacts.hpp"
 #include "jostle/parallel/parallel_for.hpp"
@@ -30,7 +31,9 @@ double find_contacts(const Rods& rods, const Box& box, const NeighbourList& neig
     contacts.clear();
     contacts.append(blocks.size(), [&](std::size_t block) -> const Contacts& { return blocks[block]; });
     const double with_walls = append_wall_contacts(rods, box, ranges, contacts);
-    return parallel_max(overlaps.size(), with_walls, [&](std::size_t block) { return overlaps[block]; });
+    const double with_fixed_rods = append_fixed_rod_contacts(rods, box, ranges, contacts);
+    return parallel_max(overlaps.size(), std::max(with_walls, with_fixed_rods),
+                        [&](std::size_t block) { return overlaps[block]; });
 }
 
 }  // namespace jostle

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "jostle/contact/fixed_rod_grid.hpp"
+
 namespace jostle {
 
 Contact contact_with_wall(const Wall& wall, const Rods& rods, std::uint32_t row, double arm) {
@@ -35,7 +37,8 @@ Contacts relinearised_wall_contacts(const Contacts& contacts, const Box& box, co
     const std::vector<Wall> walls = walls_of(box);
     for (std::size_t l = 0; l < contacts.size() && !walls.empty(); ++l) {
         Contact contact = contacts.contact[l];
-        if (!is_fixed(contact.i) || contacts.feature[l] == ContactFeature::relinearised) continue;
+        if (!is_fixed(contact.i) || is_fixed_rod(contact.i) || contacts.feature[l] == ContactFeature::relinearised)
+            continue;
         const Wall& wall =
             *std::find_if(walls.begin(), walls.end(), [&](const Wall& other) { return other.body() == contact.i; });
         const Vec3 point = end.centre(contact.j) + contact.arm_j * end.axis(contact.j);

@@ -19,7 +19,8 @@ enum class Stream : std::uint32_t {
     tumble_time = 10,
     tumble_rotation = 11,
     monte_carlo = 12,
-    fluid = 13  // at most 15
+    fluid = 13,
+    box = 14  // at most 15
 };
 
 /// Random numbers as a pure function of (seed, step, stream, id, draw): Philox4x32-10 (Salmon et al. 2011).

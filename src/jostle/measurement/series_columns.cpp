@@ -37,7 +37,7 @@ void add_pressure_columns(const Scene& scene, Series& series) {
     columns.push_back(
         {{"Z", "1", "Z", "compressibility factor Pi/(n kT), mean over the steps since the last row", in_compression},
          [](const RowState& row) {
-             return row.kT > 0.0 && !row.simulation.box().walls().any()
+             return row.kT > 0.0 && row.simulation.box().holds_rods_alone()
                         ? compressibility(row.stress, row.density, row.kT)
                         : std::nan("");
          }});
@@ -135,6 +135,16 @@ void add_force_columns(const Scene& scene, Series& series) {
                         });
 }
 
+void add_fixed_rod_columns(const Scene& scene, Series& series) {
+    series.add_elements(fixed_rod_force_column_names,
+                        {"", unit_of(scene, dimension::force), "",
+                         "sum of the contact forces on all fixed rods, mean over the steps since the last row",
+                         "along the axis of the box"},
+                        [](const RowState& row, std::size_t k) {
+                            return (*row.sums.fixed_rod_force)[static_cast<int>(k)] / row.sums.steps;
+                        });
+}
+
 void add_active_columns(const Scene& scene, Series& series) {
     const std::string stress = unit_of(scene, dimension::stress);
     const std::string sign =
@@ -194,6 +204,7 @@ TableColumns<RowState> series_columns(const Scene& scene) {
     add_contact_columns(scene, series);
     if (scene_walls(scene).any()) add_wall_columns(scene, series);
     if (!scene.springs.file.empty()) add_spring_columns(scene, series);
+    if (!scene.rods.fixed.empty()) add_fixed_rod_columns(scene, series);
     if (has_torques(scene)) add_torque_columns(scene, series);
     if (scene_walls(scene).any() && scene.forces.on_rods != Vec3{}) add_force_columns(scene, series);
     if (swims(scene)) add_active_columns(scene, series);

@@ -53,6 +53,13 @@ TableColumns<ContactState> contact_columns(const Scene& scene) {
                                   "id_j, and the normal is from the wall to the rod; -1: no wall, two rods",
                                   ""},
                                  [](const Item& item) { return static_cast<double>(item.contact.wall); }});
+    if (!scene.rods.fixed.empty())
+        table.columns.push_back(
+            {{"fixed", "1", "",
+              "number of a fixed rod, from 0 in the order of its file; then id_i = id_j, the normal "
+              "is from the fixed rod to the rod, and arm_i along the fixed rod; -1: none",
+              ""},
+             [](const Item& item) { return static_cast<double>(item.contact.fixed); }});
     table.columns.push_back(
         {{"arm_i", length, "s_i", "position of the contact along the first rod's axis, from its centre", ""}, arm(0)});
     table.columns.push_back(

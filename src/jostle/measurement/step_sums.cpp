@@ -55,6 +55,7 @@ void StepSums::add(const StepReport& report) {
     centre_of_mass_virial += report.centre_of_mass_virial;
     centre_line_virial += report.centre_line_virial;
     if (torque_virial) *torque_virial += report.torque_virial;
+    if (fixed_rod_force) *fixed_rod_force += report.fixed_rod_force;
     for (std::size_t wall = 0; wall < max_walls; ++wall) wall_force[wall] += report.wall_force[wall];
     contacts += static_cast<double>(report.contacts);
     active_contacts += static_cast<double>(report.active_contacts);
@@ -102,6 +103,7 @@ void StepSums::look_at_swimmers(const Scene& scene, const Simulation& simulation
 void StepSums::start_row() {
     StepSums fresh;
     if (kT) fresh.kT = 0.0;
+    if (fixed_rod_force) fresh.fixed_rod_force.emplace();
     if (torque_virial) fresh.torque_virial.emplace();
     fresh.run_max_overlap = run_max_overlap;
     fresh.active_stress = std::move(active_stress);
@@ -117,6 +119,7 @@ NamedNumbers StepSums::to_named() const {
     });
     if (kT) numbers["kT"] = {*kT};
     if (torque_virial) numbers["torque_virial"].assign(torque_virial->m.begin(), torque_virial->m.end());
+    if (const auto& force = fixed_rod_force) numbers["fixed_rod_force"] = {force->x, force->y, force->z};
     if (active_stress) add_under("active_stress", numbers, active_stress->to_named());
     if (field) add_under("field", numbers, field->to_named());
     return numbers;
@@ -134,6 +137,11 @@ StepSums StepSums::from_named(NamedNumbers numbers, const Scene& scene, const Bo
     };
     for_each_sum(sums, [&](const char* name, auto& sum) { take(name, numbers_of(sum)); });
     if (!scene.schedule.kT.empty()) take("kT", {&sums.kT.emplace(), 1});
+    if (box.fixed_rods()) {
+        std::array<double, 3> force{};
+        take("fixed_rod_force", force);
+        sums.fixed_rod_force = Vec3{force[0], force[1], force[2]};
+    }
     if (has_torques(scene)) take("torque_virial", sums.torque_virial.emplace().m);
     if (swims(scene)) sums.active_stress = ActiveStress::from_named(taken_under("active_stress", numbers));
     if (scene.output.field_every == 0) return sums;
@@ -155,6 +163,7 @@ StepSums first_sums(const Scene& scene, const Simulation& simulation) {
     sums.field = make_field(scene, simulation.box());
     if (!scene.schedule.kT.empty()) sums.kT = 0.0;
     if (has_torques(scene)) sums.torque_virial.emplace();
+    if (simulation.box().fixed_rods()) sums.fixed_rod_force.emplace();
     if (!swims(scene)) return sums;
     const Rods& rods = simulation.rods();
     const double row_time = simulation.settings().time_step * static_cast<double>(scene.output.series_every);

@@ -25,6 +25,7 @@ struct StepSums {
     Mat3 collision_virial, spring_virial, centre_of_mass_virial, centre_line_virial;
     std::optional<Mat3> torque_virial;           ///< where the scene has torques
     std::array<double, max_walls> wall_force{};  ///< by the numbers of the walls
+    std::optional<Vec3> fixed_rod_force;         ///< where there are fixed rods
     double contacts = 0.0;
     double active_contacts = 0.0;
     double iterations = 0.0;

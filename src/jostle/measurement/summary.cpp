@@ -127,6 +127,19 @@ Json box_entry(const Scene& scene, const Box& box) {
             {"unit", unit_of(scene, dimension::length)}};
 }
 
+/// How many there are, what they would fill if they did not overlap each other, and the mean force on all of them.
+Json fixed_rods_entry(const Rods& fixed, const Box& box, const Columns& force, const std::string& unit) {
+    Json means = Json::array(), errors = Json::array();
+    for (const std::vector<double>& along : force) {
+        const Average each = average(along);
+        means.push_back(each.mean);
+        errors.push_back(optional_number(each.standard_error));
+    }
+    return {{"count", fixed.size()},
+            {"volume_fraction", without_rounding(total_volume(fixed) / box.volume())},
+            {"force", {{"mean", means}, {"standard_error", errors}, {"unit", unit}}}};
+}
+
 /// The window of the rows so far.
 ProductionWindow window_of(const Scene& scene, const Simulation& simulation, const SeriesTable& series, double begin) {
     if (simulation.rods().size() == 0) refuse_to_average("all cells have died", "");
@@ -173,7 +186,7 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     summary["time"] = simulation.clock().time;
     summary["time_step"] = simulation.settings().time_step;
     const Walls& walls = simulation.box().walls();
-    if (thermal && !walls.any()) summary["Z"] = described(average_of("Z"), "");
+    if (thermal && simulation.box().holds_rods_alone()) summary["Z"] = described(average_of("Z"), "");
     for (const WallGroup& group : wall_groups(walls))
         summary[group.column] = described(average_of(group.column.c_str()), stress_unit);
     summary["pressure"] = described(average_of("pressure"), stress_unit);
@@ -193,6 +206,10 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
         summary["stress_springs"] =
             tensor_entry(window_columns(series, first, spring_stress_column_names), stress_unit);
     }
+    if (simulation.box().fixed_rods())
+        summary["fixed_rods"] = fixed_rods_entry(*simulation.box().fixed_rods(), simulation.box(),
+                                                 window_columns(series, first, fixed_rod_force_column_names),
+                                                 unit_of(scene, dimension::force));
     if (has_torques(scene))
         summary["stress_torques"] =
             tensor_entry(window_columns(series, first, torque_stress_column_names), stress_unit);
@@ -220,7 +237,7 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     summary["production_rows"] = series.rows() - std::min(first, series.rows());
     summary["max_overlap"] = run_max_overlap / smallest_diameter(scene, rods);
     Json checks = Json::object();
-    const bool in_equilibrium = simulation.keeps_equilibrium() && !springs && !ramped;
+    const bool in_equilibrium = simulation.keeps_equilibrium() && !springs && !ramped && !simulation.box().fixed_rods();
     if (in_equilibrium && simulation.box().is_periodic())
         checks["total_stress_ratio"] = total_stress_ratio_check(stress, order);
     for (const WallGroup& group : wall_groups(walls))

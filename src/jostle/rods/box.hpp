@@ -32,6 +32,9 @@ public:
     double volume() const { return share_of_box(walls_.container) * (edges_.x * edges_.y * edges_.z); }
     double longest_edge() const { return std::max({edges_.x, edges_.y, edges_.z}); }
 
+    /// Whether nothing but rods that move pushes rods in it.
+    bool holds_rods_alone() const { return !walls_.any() && !fixed_rods_; }
+
     /// The same box with other edges, or with fixed rods.
     Box with_edges(const Vec3& edges) const {
         Box other = *this;

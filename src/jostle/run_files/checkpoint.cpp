@@ -144,6 +144,27 @@ Walls take_walls(FieldReader& reader) {
     return walls;
 }
 
+void put_fixed_rods(FieldWriter& writer, const Box& box) {
+    if (!box.fixed_rods()) return;
+    const Rods& fixed = *box.fixed_rods();
+    writer.put_array("fixed.centre", fixed.centre);
+    writer.put_array("fixed.axis", fixed.axis);
+    writer.put_array("fixed.length", fixed.length);
+    writer.put_array("fixed.diameter", fixed.diameter);
+}
+
+std::shared_ptr<const Rods> take_fixed_rods(FieldReader& reader) {
+    if (reader.names_after("fixed.").empty()) return nullptr;
+    const auto centre = reader.take_array<Vec3>("fixed.centre"), axis = reader.take_array<Vec3>("fixed.axis");
+    const auto length = reader.take_array<double>("fixed.length"),
+               diameter = reader.take_array<double>("fixed.diameter");
+    if (axis.size() != centre.size() || length.size() != centre.size() || diameter.size() != centre.size())
+        throw std::out_of_range("fixed rods of unequal columns");
+    Rods fixed;
+    for (std::size_t f = 0; f < centre.size(); ++f) fixed.push_back(f, centre[f], axis[f], length[f], diameter[f]);
+    return std::make_shared<const Rods>(std::move(fixed));
+}
+
 FieldWriter fields_of(const Checkpoint& checkpoint) {
     FieldWriter writer;
     writer.put_text("scene", checkpoint.scene);
@@ -154,6 +175,7 @@ FieldWriter fields_of(const Checkpoint& checkpoint) {
     std::copy(checkpoint.state.box.periodic().begin(), checkpoint.state.box.periodic().end(), periodic.begin());
     writer.put("box.periodic", periodic);
     put_walls(writer, checkpoint.state.box.walls());
+    put_fixed_rods(writer, checkpoint.state.box);
     put_rods(writer, checkpoint.state.rods);
     put_springs(writer, checkpoint.state.springs);
     put_forces(writer, checkpoint.state.previous_forces);
@@ -171,7 +193,8 @@ Checkpoint from_fields(std::string_view payload) {
     checkpoint.state.clock.time = reader.take<double>("time");
     const Vec3 edges = reader.take<Vec3>("box.edges");
     const auto periodic = reader.take<std::array<std::uint8_t, 3>>("box.periodic");
-    checkpoint.state.box = Box(edges, {periodic[0] != 0, periodic[1] != 0, periodic[2] != 0}, take_walls(reader));
+    checkpoint.state.box = Box(edges, {periodic[0] != 0, periodic[1] != 0, periodic[2] != 0}, take_walls(reader))
+                               .with_fixed_rods(take_fixed_rods(reader));
     checkpoint.state.rods = take_rods(reader);
     checkpoint.state.springs = take_springs(reader);
     checkpoint.state.previous_forces = take_forces(reader);
@@ -286,6 +309,19 @@ std::optional<Checkpoint> latest_checkpoint(const std::string& folder) {
     } catch (const InputError& error) {
         throw refused_file(path, error.parts().problem, way_out(path, previous));
     }
+}
+
+void require_same_fixed_rods(const Checkpoint& checkpoint, const std::shared_ptr<const Rods>& fixed,
+                             const std::string& name) {
+    const std::shared_ptr<const Rods>& known = checkpoint.state.box.fixed_rods();
+    const bool same = static_cast<bool>(fixed) == static_cast<bool>(known) &&
+                      (!fixed || (fixed->centre == known->centre && fixed->axis == known->axis &&
+                                  fixed->length == known->length && fixed->diameter == known->diameter));
+    if (same) return;
+    throw InputError({.key = "rods.fixed",
+                      .value = "\"" + name + "\"",
+                      .problem = "the run began with other fixed rods",
+                      .suggestion = "Give it the file that it began with, or start anew with --fresh"});
 }
 
 void require_same_springs(const Checkpoint& checkpoint, std::vector<Spring> springs, bool rods_turn_round,

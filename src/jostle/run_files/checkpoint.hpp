@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,6 +54,10 @@ std::string impossible_content(const Checkpoint& checkpoint);
 /// A damaged FOLDER/checkpoint is an error, not silently passed over: the message says whether the one before is sound
 /// and how to go on from it. Errors: InputError, DiskError.
 std::optional<Checkpoint> latest_checkpoint(const std::string& folder);
+
+/// Throws InputError unless the run of this checkpoint began with these fixed rods, of the file `name`.
+void require_same_fixed_rods(const Checkpoint& checkpoint, const std::shared_ptr<const Rods>& fixed,
+                             const std::string& name);
 
 /// Refuses a checkpoint of other springs than the file at `path` holds now: the scene only names it. Where rods turn
 /// round, all points of a rod may be on its other side. Errors: InputError.

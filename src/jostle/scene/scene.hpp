@@ -22,6 +22,7 @@ enum class StepRule { bb1, bb2, alternating };
 enum class ResidualKind { length, paper };
 enum class FrameTimes { even, logarithmic };
 enum class Direction { x, y, z };
+enum class StrainCoupling { isotropic, orthogonal };
 
 /// A scene: everything that the user decides. Member names are the keys of the TOML file; one struct a table.
 ///
@@ -106,6 +107,15 @@ struct Scene {
         Ramp<double> volume_fraction;      // ... or this, with the shape that the box has
         bool operator==(const ScheduleTable&) const = default;
     } schedule;
+
+    struct PressureTable {
+        std::optional<double> external;  // of the bath; without it the volume stays
+        StrainCoupling coupling = StrainCoupling::isotropic;
+        std::optional<double> relaxation_time;   // "auto" (empty): in which a rod diffuses its length
+        std::optional<double> compression_rate;  // -d ln V/dt without thermal motion
+        std::optional<double> limit_volume_fraction;
+        bool operator==(const PressureTable&) const = default;
+    } pressure;
 
     struct SpringsTable {
         std::string file;  // relative to the scene's folder; empty: no springs

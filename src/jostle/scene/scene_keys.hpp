@@ -83,6 +83,7 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("rods", "file", scene.rods.file, Plain{});
     visit("rods", "run", scene.rods.run, Plain{});
     visit("rods", "frame", scene.rods.frame, Count{.automatic = true});
+    visit("rods", "fixed", scene.rods.fixed, Plain{});
     visit("fluid", "viscosity", scene.fluid.viscosity, Quantity{dim::viscosity, positive});
     visit("fluid", "kT", scene.fluid.kT, Quantity{dim::energy, zero_or_positive});
     visit("mobility", "model", scene.mobility.model, Plain{});

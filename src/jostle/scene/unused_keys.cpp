@@ -79,6 +79,8 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
                           "Set field_every, or remove it"});
     if (scene.time.rms_step && !scene.time.step)
         unused.push_back({"time.step", "is not used with time.rms_step", "Remove one of the two"});
+    if (scene.rods.fixed.empty())
+        unused.push_back({"rods.fixed", "names no file", "Name a CSV file of rods that do not move, or remove fixed"});
     if (scene.springs.file.empty())
         unused.push_back({"springs.file", "names no file", "Name a CSV file of springs, or remove [springs]"});
     if (rods_are_given(scene) && scene.rods.count == 0)

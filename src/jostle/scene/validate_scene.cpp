@@ -183,6 +183,20 @@ void check_springs(const Scene& scene) {
                "Remove [springs] or [growth]");
 }
 
+void check_fixed_rods(const Scene& scene) {
+    if (scene.rods.fixed.empty()) return;
+    const std::string& file = scene.rods.fixed;
+    if (scene.contact.model == ContactModel::wca)
+        refuse("rods.fixed", file, "fixed rods are hard, and contact.model = \"wca\" is soft", "no file",
+               "Use contact.model = \"hard\"");
+    if (scene.mobility.model == MobilityModel::hydrodynamic)
+        refuse("rods.fixed", file, "no flow is known past rods that stand still in the fluid", "no file",
+               "Use mobility.model = \"capsule\"");
+    if (squeezes_box(scene))
+        refuse("rods.fixed", file, "fixed rods stay where they are, and a schedule changes the box", "no file",
+               "Remove " + key_of_box_ramp(scene) + ", or fixed");
+}
+
 /// Whether something stops the rods that a force drags.
 void check_forces(const Scene& scene) {
     const Scene::ForcesTable& forces = scene.forces;
@@ -295,6 +309,7 @@ const std::vector<TogetherCheck>& together_checks() {
         {validate_fluid, {"mobility", "rods", "box", "motion", "growth", "springs", "schedule", "contact", "solver"}},
         {check_schedule, {"schedule", "box", "walls", "growth"}},
         {check_springs, {"springs", "growth"}},
+        {check_fixed_rods, {"rods", "contact", "mobility", "schedule"}},
         {check_forces, {"forces", "walls"}},
         {check_solver, {"contact", "solver", "fluid"}},
         {check_time, {"time", "motion", "fluid", "growth", "springs", "schedule", "forces"}},

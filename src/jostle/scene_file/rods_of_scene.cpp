@@ -157,6 +157,17 @@ Box box_of(const Scene& scene, const std::optional<Rods>& rods) {
     return {box_edges(scene, volume), scene.box.periodic, scene_walls(scene)};
 }
 
+std::shared_ptr<const Rods> fixed_rods(const Scene& scene, const std::filesystem::path& scene_path) {
+    if (scene.rods.fixed.empty()) return nullptr;
+    const std::filesystem::path file = named_file("rods.fixed", scene.rods.fixed, scene_path);
+    Rods fixed = read_rods(file.string(), scene.rods.length, scene.rods.diameter);
+    if (!fixed.speed.empty()) throw refused_file(file.string(), "fixed rods do not swim", "Remove the column speed");
+    const Box box = box_of(scene, std::nullopt);
+    require_near(fixed, box, file.string());
+    for (std::size_t f = 0; f < fixed.size(); ++f) box.wrap(fixed.centre[f], fixed.image[f]);
+    return std::make_shared<const Rods>(std::move(fixed));
+}
+
 std::string springs_path(const Scene& scene, const std::filesystem::path& scene_path) {
     return scene.springs.file.empty() ? "" : named_file("springs.file", scene.springs.file, scene_path).string();
 }
@@ -176,7 +187,7 @@ Beginning beginning_from(const Scene& scene, const std::filesystem::path& scene_
                          const AnnealingWatch& watch) {
     std::optional<Rods> from_file;
     if (given) from_file = std::move(given->rods);
-    const Box box = box_of(scene, from_file);
+    const Box box = box_of(scene, from_file).with_fixed_rods(fixed_rods(scene, scene_path));
     Beginning beginning = {{box, {}}};
     const Rods rods = from_file ? *from_file : representative_rods(scene);
     std::vector<Spring>& springs = beginning.state.springs;

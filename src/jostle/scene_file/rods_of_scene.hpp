@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,9 @@ std::optional<Rods> rods_from_file(const Scene& scene, const std::filesystem::pa
 
 /// The box of a scene, for these rods or, if there are none, for those that the scene describes.
 Box box_of(const Scene& scene, const std::optional<Rods>& rods);
+
+/// The rods of rods.fixed, which do not move; null where the scene names no file. Errors: InputError, DiskError.
+std::shared_ptr<const Rods> fixed_rods(const Scene& scene, const std::filesystem::path& scene_path);
 
 /// The springs file of a scene, relative to the scene's folder; empty if it names none. Errors: InputError if the file
 /// is not there.

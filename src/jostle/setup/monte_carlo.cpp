@@ -44,6 +44,7 @@ MonteCarlo::MonteCarlo(Rods& rods, const Box& box, std::uint64_t seed)
       box_(box),
       seed_(seed),
       walls_(walls_of(box)),
+      fixed_(grid_of_fixed_rods(box, rods)),
       grid_(rods, box, longest_of(rods)),
       cells_(grid_, box, longest_of(rods)) {
     cells_.fill(rods_);
@@ -131,14 +132,17 @@ MonteCarlo::Trial MonteCarlo::shift(std::uint32_t row, std::uint32_t draw) const
     return {rods_.centre[row], normalised(axis + up_to(reach) / reach * anywhere)};
 }
 
-/// Whether a rod would leave its domain, or an open box or a wall, or get farther away from that.
+/// Whether a rod would leave its domain, or an open box or a wall, or reach into a fixed rod, or get farther away from
+/// that.
 bool MonteCarlo::leads_out(std::uint32_t row, const Trial& trial, const Site& site) const {
     const Vec3& centre = trial.centre;
     const auto beyond_walls = [&](const Vec3& at, const Vec3& axis) {
-        return std::max(0.0,
-                        overlap_with_walls(walls_, box_.walls(), at, axis, rods_.length[row], rods_.diameter[row]));
+        const double length = rods_.length[row], diameter = rods_.diameter[row];
+        return std::max({0.0, overlap_with_walls(walls_, box_.walls(), at, axis, length, diameter),
+                         overlap_with_fixed_rods(fixed_, at, axis, length, diameter)});
     };
-    if (!walls_.empty() && beyond_walls(centre, trial.axis) > beyond_walls(rods_.centre[row], rods_.axis[row]))
+    if ((!walls_.empty() || !fixed_.empty()) &&
+        beyond_walls(centre, trial.axis) > beyond_walls(rods_.centre[row], rods_.axis[row]))
         return true;
     for (int k = 0; k < 3; ++k) {
         if (box_.periodic()[static_cast<std::size_t>(k)]) continue;

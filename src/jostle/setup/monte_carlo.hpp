@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "jostle/contact/cell_grid.hpp"
+#include "jostle/contact/fixed_rod_search.hpp"
 #include "jostle/rods/wall.hpp"
 #include "jostle/setup/cell_domains.hpp"
 #include "jostle/setup/movable_cells.hpp"
@@ -62,6 +63,7 @@ private:
     const Box& box_;
     std::uint64_t seed_, sweeps_ = 0;
     std::vector<Wall> walls_;
+    FixedRodGrid fixed_;
     CellGrid grid_;
     MovableCells cells_;
     std::vector<std::uint32_t> overlaps_;  ///< (N) pairs that a rod overlaps in

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "jostle/contact/cell_list.hpp"
+#include "jostle/contact/fixed_rod_search.hpp"
 #include "jostle/contact/pair_contacts.hpp"
 #include "jostle/math/random.hpp"
 #include "jostle/math/random_direction.hpp"
@@ -32,15 +33,17 @@ void sort_by_cell(Rows& rows, const Rods& rods, const CellGrid& grid) {
     parallel_for(rows.size(), [&](std::size_t k) { rows[k] = static_cast<std::uint32_t>(keys[k]); });
 }
 
-/// Of the rods just drawn, those that overlap a wall, their own image, one that stays, or one just drawn with a lower
-/// id.
+/// Of the rods just drawn, those that overlap a wall, a fixed rod, their own image, one that stays, or one just drawn
+/// with a lower id.
 Rows rows_to_draw_again(const Rods& rods, const Box& box, const MovableCells& cells, const Rows& drawn) {
     const std::vector<Wall> walls = walls_of(box);
+    const FixedRodGrid fixed = grid_of_fixed_rods(box, rods);
     std::vector<std::uint8_t> stays(rods.size(), 1), again(drawn.size());
     for (const std::uint32_t row : drawn) stays[row] = 0;
     parallel_for(drawn.size(), [&](std::size_t k) {
         const std::uint32_t row = drawn[k];
         again[k] = overlap_with_walls(walls, box.walls(), rods, row) > 0.0 ||
+                   overlap_with_fixed_rods(fixed, rods, row) > 0.0 ||
                    cells.any_near(rods.centre[row], [&](std::uint32_t other, const Vec3& displacement) {
                        if (other == row && squared_norm(displacement) == 0.0) return false;
                        const bool gives_way = !stays[other] && rods.id[other] > rods.id[row];

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jostle/contact/fixed_rod_search.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/rods/space_filling_order.hpp"
@@ -134,12 +135,29 @@ void require_inside(const Rods& rods, const Box& box, double allowed, const char
                  .allowed = fmt::format("at most {:.3g}", allowed)});
 }
 
+/// Refuses rods that reach into fixed rods by more than `allowed`.
+void require_beside_fixed_rods(const Rods& rods, const Box& box, double allowed, const char* key,
+                               const std::string& name) {
+    const FixedRodGrid fixed = grid_of_fixed_rods(box, rods);
+    for (std::size_t i = 0; i < rods.size(); ++i)
+        if (const double overlap = overlap_with_fixed_rods(fixed, rods, i); overlap > allowed)
+            throw InputError(
+                {.key = key,
+                 .value = "\"" + name + "\"",
+                 .problem = fmt::format(
+                     "rod {} (row {}) overlaps a fixed rod by {:.3g}: its centre is ({:.6g}, {:.6g}, {:.6g})",
+                     rods.id[i], i + 1, overlap, rods.centre[i].x, rods.centre[i].y, rods.centre[i].z),
+                 .allowed = fmt::format("at most {:.3g}", allowed)});
+}
+
 Rods checked(Rods rods, const Box& box, const Scene& scene) {
     for (std::size_t i = 0; i < rods.size(); ++i) box.wrap(rods.centre[i], rods.image[i]);
     rods.image.assign(rods.size(), Image{0, 0, 0});
     const bool of_run = scene.rods.start == StartKind::run;
     const double allowed = (of_run ? scene.contact.overlap_limit : file_overlap) * scene.rods.diameter;
     require_inside(rods, box, allowed, of_run ? "rods.run" : "rods.file", of_run ? scene.rods.run : scene.rods.file);
+    require_beside_fixed_rods(rods, box, allowed, of_run ? "rods.run" : "rods.file",
+                              of_run ? scene.rods.run : scene.rods.file);
     const double overlap = largest_overlap(rods, box);
     if (overlap > allowed)
         throw InputError(
@@ -174,8 +192,11 @@ Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& f
             return at_random(scattered_rods(scene, box, std::nullopt), box, true, scene, watch);
         case StartKind::aligned:
             return at_random(scattered_rods(scene, box, normalised(scene.rods.axis)), box, false, scene, watch);
-        case StartKind::lattice:
-            return rods_in_rows(scene, box);
+        case StartKind::lattice: {
+            Rods rods = rods_in_rows(scene, box);
+            require_beside_fixed_rods(rods, box, 0.0, "rods.start", "lattice");
+            return rods;
+        }
         case StartKind::file:
         case StartKind::run:
             return checked(from_file.value(), box, scene);

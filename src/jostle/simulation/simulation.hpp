@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "jostle/contact/collision_search.hpp"
+#include "jostle/contact/fixed_rod_search.hpp"
 #include "jostle/contact/wall_search.hpp"
 #include "jostle/contact_problem/contact_solver.hpp"
 #include "jostle/growth/growth.hpp"
@@ -97,6 +98,7 @@ private:
     bool reordered_ = false;  ///< rods near each other are near each other in memory
     CollisionSearch search_;
     WallSearch wall_search_;
+    FixedRodSearch fixed_rod_search_;
     bool sizes_changed_ = true;  ///< since `sizes_` were found
     SizeBounds sizes_;
     KnownMotion known_;

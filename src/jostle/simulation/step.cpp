@@ -66,6 +66,7 @@ StepReport Simulation::step() {
     ids_before_.clear();
     report.max_overlap = search_.find(geometry, found);  // 2  contacts
     report.max_overlap = std::max(report.max_overlap, wall_search_.find(geometry, found));
+    report.max_overlap = std::max(report.max_overlap, fixed_rod_search_.find(geometry, found));
     timer.finish(StepPhase::find_contacts);
 
     ContactProblem problem = posed_problem(*mobility, std::move(found));  // 3  A, b; gamma
@@ -110,6 +111,7 @@ ContactSolution Simulation::resolved(ContactProblem& problem, const StepGeometry
         const auto violated = search_.violated_pairs(geometry, problem.contacts(), end, solver->at_solution());
         more.append(search_.activate(violated, geometry));
         more.append(wall_search_.violated(geometry, end));
+        more.append(fixed_rod_search_.violated(geometry, end));
         if (more.size() > 0) problem.append(more, gap_velocities(more));
     }
     const SolverOutcome& outcome = solver->outcome();
@@ -178,6 +180,7 @@ Contacts Simulation::relinearised(const ContactProblem& problem, const EndConfig
     const double max_overlap = max_overlap_of_turning * sizes_.mean_diameter + tolerance;
     Contacts contacts = relinearised_contacts(problem.contacts(), state_.box, end, max_overlap);
     contacts.append(relinearised_wall_contacts(problem.contacts(), state_.box, end, max_overlap));
+    contacts.append(relinearised_fixed_rod_contacts(problem.contacts(), state_.box, end, max_overlap));
     for (Contact& contact : contacts.contact)
         contact.shifted_gap -=
             settings_.time_step * gap_rate(contact, end.velocity_of(contact.i), end.velocity_of(contact.j));

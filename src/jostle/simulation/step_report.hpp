@@ -30,6 +30,7 @@ struct StepReport {
     double max_overlap = 0.0;  ///< largest of two rods, or of a rod and a wall, when the step began, after growth and
                                ///< squeezing; a length
     std::array<double, max_walls> wall_force{};  ///< on each wall by its number: sum of its contact forces
+    Vec3 fixed_rod_force;                        ///< on all fixed rods together
     Vec3 stretch{1, 1, 1};  ///< of the box in the step, and of the centres with it: edges after over before
     Mat3 collision_virial;  ///< sum over contacts of theory, eq. (1.1): V times the collision stress
     Mat3 spring_virial;     ///< the same of springs (theory, eq. 1.16); 0 where there are none

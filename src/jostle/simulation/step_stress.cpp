@@ -1,5 +1,6 @@
 #include "jostle/simulation/step_stress.hpp"
 
+#include "jostle/contact/fixed_rod_grid.hpp"
 #include "jostle/math/rotation.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/stress/spring_stress.hpp"
@@ -67,12 +68,17 @@ void measure_stress_of_known_forces(const ResolvedStep& step, double time_step, 
     });
 }
 
-/// Theory 6: the sum of the contact forces on each wall.
+/// Theory 6: the sum of the contact forces on each wall, and on all fixed rods.
 void measure_wall_forces(const ResolvedStep& step, StepReport& report) {
     const std::vector<double>& gamma = step.solution.gamma;
     for (const Wall& wall : walls_of(step.state.box))
         report.wall_force[wall.number] = parallel_sum<double>(
             gamma.size(), [&](std::size_t l) { return step.contacts.contact[l].i == wall.body() ? gamma[l] : 0.0; });
+    if (!step.state.box.fixed_rods()) return;
+    report.fixed_rod_force = parallel_sum<Vec3>(gamma.size(), [&](std::size_t l) {
+        const Contact& contact = step.contacts.contact[l];
+        return is_fixed_rod(contact.i) ? -gamma[l] * contact.normal : Vec3{};
+    });
 }
 
 }  // namespace

@@ -8,7 +8,8 @@
 namespace jostle {
 
 State in_order_of_ids(const State& state) {
-    State ordered = {state.box, in_order_of_ids(state.rods), state.clock, state.springs, state.previous_forces};
+    State ordered = {state.box,     in_order_of_ids(state.rods), state.clock,
+                     state.springs, state.previous_forces,       state.box_force};
     std::sort(ordered.previous_forces.begin(), ordered.previous_forces.end(),
               [](const PreviousForce& a, const PreviousForce& b) {
                   return std::tuple(key_of(a), a.gamma) < std::tuple(key_of(b), b.gamma);

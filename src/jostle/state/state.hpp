@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "jostle/contact/previous_force.hpp"
@@ -17,7 +18,8 @@ struct State {
     Clock clock = {};
     std::vector<Spring> springs = {};  ///< between the rods, by ids
     std::vector<PreviousForce> previous_forces =
-        {};  ///< by ids; empty unless steps begin from those of the step before
+        {};                              ///< by ids; empty unless steps begin from those of the step before
+    std::optional<Vec3> box_force = {};  ///< on the logarithms of the edges, by the last step; none where the box stays
 };
 
 /// The same state, its rods in the order of ids, its forces in that of (i, j, feature, upper, gamma).

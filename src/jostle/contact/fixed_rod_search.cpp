@@ -1,0 +1,209 @@
+#include "jostle/contact/fixed_rod_search.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "jostle/parallel/parallel_for.hpp"
+
+namespace jostle {
+
+namespace {
+
+constexpr std::size_t block_size = 256;  ///< rods looked at together
+
+/// The contacts of a pair, their gaps not shifted.
+void append_points(const FixedCopy& copy, std::uint32_t row, const PairGeometry& pair, const NearestPoints& nearest,
+                   double range, Contacts& contacts) {
+    const PairKey key = {body_of_fixed_rod(copy.number), row, copy.image};
+    append_contacts(key, pair, nearest, norm(nearest.separation), range, contacts);
+}
+
+/// Whether a pair's middle points are farther apart than it could touch from.
+bool are_apart(const PairGeometry& pair, double range) {
+    const double farthest = pair.half_i + pair.half_j + pair.radii + range;
+    return squared_norm(pair.between) > farthest * farthest;
+}
+
+FixedCopy copy_of(const Contact& contact, const Image& image, const Box& box) {
+    const std::uint32_t number = number_of_fixed_rod(contact.i);
+    return {number, image, box.fixed_rods()->centre[number] - box.displacement(image)};
+}
+
+PairGeometry pair_with(const Rods& fixed, const FixedCopy& copy, const Rods& rods, std::size_t row, const Vec3& centre,
+                       const Vec3& axis) {
+    const std::uint32_t f = copy.number;
+    return {centre - copy.centre,  fixed.axis[f],          axis,
+            0.5 * fixed.length[f], 0.5 * rods.length[row], 0.5 * (fixed.diameter[f] + rods.diameter[row])};
+}
+
+}  // namespace
+
+double FixedRodSearch::find(const StepGeometry& step, Contacts& contacts) {
+    known_.clear();
+    if (!step.box.fixed_rods()) return 0.0;
+    const std::size_t count = step.rods.size();
+    reach_.resize(count);
+    parallel_for(count, [&](std::size_t i) {
+        reach_[i] =
+            step.displacement[i] + std::max(step.shift.part[i] + step.ranges.activation_margin, step.ranges.range);
+    });
+    grid_.fit(step.box, reach_from_centre(step.rods, *step.box.fixed_rods(), reach_));
+    blocks_.resize((count + block_size - 1) / block_size);
+    parallel_for_parts(blocks_.size(), [&](std::size_t block) {
+        Found& found = blocks_[block];
+        found.contacts.clear();
+        found.overlap = 0.0;
+        const std::size_t end = std::min(count, (block + 1) * block_size);
+        for (std::size_t row = block * block_size; row < end; ++row)
+            look_at(static_cast<std::uint32_t>(row), step, found);
+    });
+    const std::size_t first = contacts.size();
+    contacts.append(blocks_.size(), [&](std::size_t block) -> const Contacts& { return blocks_[block].contacts; });
+    remember(contacts, first);
+    double overlap = 0.0;
+    for (const Found& found : blocks_) overlap = std::max(overlap, found.overlap);
+    return overlap;
+}
+
+void FixedRodSearch::look_at(std::uint32_t row, const StepGeometry& step, Found& found) const {
+    const Rods& rods = step.rods;
+    for (const FixedCopy& copy : grid_.near(rods.centre[row])) {
+        const PairGeometry before = grid_.pair(copy, rods, row, rods.centre[row], rods.axis[row]);
+        if (are_apart(before, reach_[row])) continue;
+        const NearestPoints nearest = nearest_points(before);
+        const double gap = norm(nearest.separation) - before.radii;
+        if (gap >= reach_[row]) continue;
+        found.overlap = std::max(found.overlap, -gap);
+        const PairGeometry after = grid_.pair(copy, rods, row, step.known.centre[row], step.known.axis[row]);
+        const NearestPoints nearest_after = nearest_points(after);
+        const bool passed_through = dot(nearest.separation, nearest_after.separation) <= 0.0;
+        const double gap_after = norm(nearest_after.separation) - after.radii;
+        const bool always = gap < step.ranges.range || passed_through;
+        const double margin = step.ranges.activation_margin;
+        if (!always && gap_after - step.shift.part[row] >= margin) continue;
+        const std::size_t known = found.contacts.size();
+        const double shift = append(copy, row, before, nearest, after, step, found.contacts);
+        if (!always && gap_after - shift >= margin) found.contacts.resize(known);
+    }
+}
+
+/// Appends the contacts of a pair, with their shifted gaps. Returns the largest of their shifts.
+double FixedRodSearch::append(const FixedCopy& copy, std::uint32_t row, const PairGeometry& before,
+                              const NearestPoints& nearest, const PairGeometry& after, const StepGeometry& step,
+                              Contacts& contacts) const {
+    const std::size_t first = contacts.size();
+    append_points(copy, row, before, nearest, reach_[row], contacts);
+    double largest = 0.0;
+    for (std::size_t l = first; l < contacts.size(); ++l) {
+        Contact& contact = contacts.contact[l];
+        const double shift = step.shift.exact(contact);
+        contact.shifted_gap = gap_of_contact(contact, contacts.feature[l], after) - shift;
+        largest = std::max(largest, shift);
+    }
+    return largest;
+}
+
+void FixedRodSearch::remember(const Contacts& contacts, std::size_t first) {
+    for (std::size_t l = first; l < contacts.size(); ++l)
+        known_.push_back({contacts.contact[l].j, number_of_fixed_rod(contacts.contact[l].i), contacts.image[l]});
+    std::sort(known_.begin(), known_.end());
+}
+
+Contacts FixedRodSearch::violated(const StepGeometry& step, const EndConfiguration& end) {
+    Contacts all;
+    if (!step.box.fixed_rods()) return all;
+    const std::size_t count = end.rows.size();
+    const double farthest =
+        parallel_max(count, 0.0, [&](std::size_t k) { return static_cast<double>(end.displacement[k].farthest); });
+    grid_.fit(step.box, reach_from_centre(step.rods, *step.box.fixed_rods(), reach_) + farthest);
+    std::vector<Contacts> found((count + block_size - 1) / block_size);
+    parallel_for_parts(found.size(), [&](std::size_t block) {
+        const std::size_t last = std::min(count, (block + 1) * block_size);
+        for (std::size_t k = block * block_size; k < last; ++k)
+            look_again_at(end.rows[k], end.displacement[k].farthest, step, end, found[block]);
+    });
+    for (const Contacts& part : found) all.append(part);
+    remember(all, 0);
+    return all;
+}
+
+void FixedRodSearch::look_again_at(std::uint32_t row, double farthest, const StepGeometry& step,
+                                   const EndConfiguration& end, Contacts& found) const {
+    const Rods& rods = step.rods;
+    for (const FixedCopy& copy : grid_.near(rods.centre[row])) {
+        const PairGeometry after = grid_.pair(copy, rods, row, step.known.centre[row], step.known.axis[row]);
+        if (are_apart(after, step.shift.part[row] + farthest)) continue;
+        if (std::binary_search(known_.begin(), known_.end(), Known{row, copy.number, copy.image})) continue;
+        const PairGeometry at_end = grid_.pair(copy, rods, row, end.centre(row), end.axis(row));
+        const double gap = pair_gap(at_end);
+        if (gap >= step.shift.part[row]) continue;
+        const PairGeometry before = grid_.pair(copy, rods, row, rods.centre[row], rods.axis[row]);
+        const std::size_t known = found.size();
+        if (gap >= append(copy, row, before, nearest_points(before), after, step, found)) found.resize(known);
+    }
+}
+
+double append_fixed_rod_contacts(const Rods& rods, const Box& box, std::span<const double> reach, Contacts& contacts) {
+    if (!box.fixed_rods()) return 0.0;
+    FixedRodGrid grid;
+    grid.fit(box, reach_from_centre(rods, *box.fixed_rods(), reach));
+    double overlap = 0.0;
+    for (std::uint32_t row = 0; row < rods.size(); ++row)
+        for (const FixedCopy& copy : grid.near(rods.centre[row])) {
+            const PairGeometry pair = grid.pair(copy, rods, row, rods.centre[row], rods.axis[row]);
+            if (are_apart(pair, reach[row])) continue;
+            const NearestPoints nearest = nearest_points(pair);
+            const double gap = norm(nearest.separation) - pair.radii;
+            overlap = std::max(overlap, -gap);
+            if (gap < reach[row]) append_points(copy, row, pair, nearest, reach[row], contacts);
+        }
+    return overlap;
+}
+
+double overlap_with_fixed_rods(const FixedRodGrid& grid, const Vec3& centre, const Vec3& axis, double length,
+                               double diameter) {
+    double overlap = -std::numeric_limits<double>::infinity();
+    if (grid.empty()) return overlap;
+    const Rods& fixed = grid.fixed();
+    for (const FixedCopy& copy : grid.near(centre)) {
+        const std::uint32_t f = copy.number;
+        const PairGeometry pair = {centre - copy.centre,  fixed.axis[f], axis,
+                                   0.5 * fixed.length[f], 0.5 * length,  0.5 * (fixed.diameter[f] + diameter)};
+        if (!are_apart(pair, 0.0)) overlap = std::max(overlap, -pair_gap(pair));
+    }
+    return overlap;
+}
+
+Contacts relinearised_fixed_rod_contacts(const Contacts& contacts, const Box& box, const EndConfiguration& end,
+                                         double max_overlap) {
+    Contacts found;
+    std::set<PairKey> looked_at;
+    for (std::size_t l = 0; l < contacts.size() && box.fixed_rods(); ++l) {
+        const Contact& known = contacts.contact[l];
+        if (!is_fixed_rod(known.i) || !looked_at.insert(pair_of(contacts, l)).second) continue;
+        const FixedCopy copy = copy_of(known, contacts.image[l], box);
+        const PairGeometry pair =
+            pair_with(*box.fixed_rods(), copy, end.rods, known.j, end.centre(known.j), end.axis(known.j));
+        const NearestPoints nearest = nearest_points(pair);
+        const double distance = norm(nearest.separation);
+        if (!(distance > 0.0)) continue;  // the axes cross: no normal can be told
+        const double side = dot(nearest.separation, known.normal) < 0.0 ? -1.0 : 1.0;  // passed through?
+        if (!(side * distance - pair.radii < -max_overlap)) continue;
+        Contact contact;
+        contact.i = known.i;
+        contact.j = known.j;
+        contact.normal = (side / distance) * nearest.separation;
+        contact.arm_i = nearest.s_i;
+        contact.arm_j = nearest.s_j;
+        const PairGeometry before =
+            pair_with(*box.fixed_rods(), copy, end.rods, known.j, end.rods.centre[known.j], end.rods.axis[known.j]);
+        const Vec3 points = before.between + contact.arm_j * before.axis_j - contact.arm_i * before.axis_i;
+        contact.gap = dot(points, contact.normal) - pair.radii;
+        contact.shifted_gap = side * distance - pair.radii;
+        found.push_back(contact, contacts.image[l], ContactFeature::relinearised);
+    }
+    return found;
+}
+
+}  // namespace jostle
