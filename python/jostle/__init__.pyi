@@ -43,6 +43,7 @@ class Scene:
     units: _Table
     box: _Table
     walls: _Table
+    forces: _Table
     rods: _Table
     fluid: _Table
     mobility: _Table
@@ -157,6 +158,8 @@ class Run:
     def summary(self) -> dict[str, Any] | None: ...
     @property
     def record(self) -> dict[str, Any]: ...
+    @property
+    def fixed_rods(self) -> dict[str, _Array] | None: ...
     @property
     def lineage(self) -> NDArray[np.void] | None: ...
     @property
