@@ -55,21 +55,22 @@ TEST_CASE("beta follows Nesterov's sequence, from 0 on") {
     momentum.advance(1.0, false);
     const double theta = golden_ratio(), next = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * theta * theta));
     CHECK(momentum.beta() == doctest::Approx((theta - 1.0) / next).epsilon(1e-12));
-    double before = 0.0;
+    double before = 0.0, change = 1.0;
     for (int k = 0; k < 1000; ++k) {
         CHECK(momentum.beta() >= before);
         before = momentum.beta();
-        momentum.advance(1.0, false);
+        momentum.advance(change *= 0.98, false);
     }
     CHECK(momentum.beta() == 0.95);
 }
 
 TEST_CASE("a sweep that turns back begins anew, and is no reason for distrust") {
     SweepMomentum momentum;
+    double change = 1.0;
     for (int k = 0; k < 100; ++k) {
-        for (int n = 0; n < 5; ++n) momentum.advance(1.0, false);
+        for (int n = 0; n < 5; ++n) momentum.advance(change *= 0.98, false);
         CHECK(momentum.beta() > 0.0);
-        momentum.advance(1.0, true);
+        momentum.advance(change, true);
         CHECK(momentum.beta() == 0.0);
     }
     CHECK(momentum.is_trusted());
@@ -84,6 +85,21 @@ TEST_CASE("changes that grow a hundredfold begin anew, at the third time for goo
         CHECK(momentum.beta() > 0.0);
         momentum.advance(101.0, false);
         CHECK(momentum.beta() == 0.0);
+    }
+    CHECK(!momentum.is_trusted());
+}
+
+TEST_CASE("where no change is less than all before for forty sweeps there is less momentum, and in the end none") {
+    SweepMomentum momentum;
+    double change = 1.0, most = 0.95;
+    for (int loss = 0; loss < 4; ++loss) {
+        CHECK(momentum.is_trusted());
+        for (int k = 0; k < 200; ++k) momentum.advance(change *= 0.98, false);
+        CHECK(momentum.beta() == doctest::Approx(most));
+        for (int k = 0; k < 80 && momentum.beta() > 0.0; ++k)
+            momentum.advance(change * (k % 7 == 0 ? 1.0 : 2.0), false);
+        CHECK(momentum.beta() == 0.0);
+        most = 1.0 - 2.0 * (1.0 - most);
     }
     CHECK(!momentum.is_trusted());
 }
