@@ -10,6 +10,7 @@
 #include "jostle/measurement/frame_steps.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_box.hpp"
+#include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/schedule.hpp"
 #include "jostle/scene/step_limits.hpp"
@@ -183,6 +184,12 @@ void print_clocks(const Scene& scene, const MobilityOperator& mobility, const Ro
         covered = in_times(production / clocks.rotation, "rotation time");
         if (production < least_rotation_times * clocks.rotation)
             needed = fmt::format("{} rotation times are needed", least_rotation_times);
+    }
+    if (clocks.flow > 0.0 && flows(scene)) {
+        print(oscillates(scene) ? "periods of the flow" : "strain of the production",
+              fmt::format("{:.4g}", production / clocks.flow));
+        if (needed.empty() && production < least_flow_times * clocks.flow)
+            needed = fmt::format("{} are needed", least_flow_times);
     }
     if (clocks.diffusion > 0.0) {
         print("diffusion time D^2/D_t", with_unit(clocks.diffusion, scene, dimension::time));

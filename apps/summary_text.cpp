@@ -15,19 +15,27 @@ namespace {
 /// Checks of one ratio, by their keys, each with the name of its line.
 struct Checks {
     const char *ratio, *before, *after;  ///< what the name stands between in a warning
+    const char* where;
     std::vector<std::pair<const char*, const char*>> lines;
 };
 const Checks all_checks[] = {{"stress ratio along/across the director",
                               "the ",
                               " along/across the director",
+                              "equilibrium",
                               {{"total_stress_ratio", "total stress"}, {"collision_stress_ratio", "collision stress"}}},
                              {"wall pressure over the total stress along the walls' normal",
                               "the pressure over the stress at the ",
                               "",
+                              "equilibrium",
                               {{"wall_pressure_ratio", "container"},
                                {"wall_pressure_x_ratio", "planes across x"},
                                {"wall_pressure_y_ratio", "planes across y"},
-                               {"wall_pressure_z_ratio", "planes across z"}}}};
+                               {"wall_pressure_z_ratio", "planes across z"}}},
+                             {"stress of torques over what the flow turns the axes by",
+                              "the ratio of stress and turning, ",
+                              ",",
+                              "a steady flow",
+                              {{"torque_ratio", "element xy"}}}};
 
 jostle::ReadableUnit unit_in(const Json& entry, const jostle::Scene& scene) {
     return jostle::readable_unit(scene, entry.value("unit", ""));
@@ -82,10 +90,10 @@ std::string text_of_checks(const Checks& checks, const Json& of_summary, const j
                                                                  : ": disagrees";
         text +=
             line(fmt::format("  {}", name).c_str(),
-                 fmt::format("{}, in equilibrium {}{}  {}", mean_text(check["measured"], scene),
+                 fmt::format("{}, in {} {}{}  {}", mean_text(check["measured"], scene), checks.where,
                              range_text(check["in_equilibrium"]), verdict, support_text(check["measured"], withheld)));
     }
-    return text.empty() ? "" : fmt::format("{}, measured and in equilibrium\n{}", checks.ratio, text);
+    return text.empty() ? "" : fmt::format("{}, measured and in {}\n{}", checks.ratio, checks.where, text);
 }
 
 std::string warnings_of_checks(const Checks& checks, const Json& of_summary) {
@@ -93,12 +101,28 @@ std::string warnings_of_checks(const Checks& checks, const Json& of_summary) {
     for (const auto& [key, name] : checks.lines) {
         if (!of_summary.contains(key) || of_summary[key]["agree"] != Json(false)) continue;
         text += fmt::format(
-            "WARNING: {}{}{} differs from that of equilibrium by {:.3g} +- {:.2g}: the run "
+            "WARNING: {}{}{} differs from that of {} by {:.3g} +- {:.2g}: the run "
             "may be too short, its steps too long, or the box a bad fit to layers of rods, or no wider than a rod\n",
-            checks.before, name, checks.after, of_summary[key]["difference"].get<double>(),
+            checks.before, name, checks.after, checks.where, of_summary[key]["difference"].get<double>(),
             of_summary[key]["standard_error"].get<double>());
     }
     return text;
+}
+
+/// What a flow tells of the rods.
+std::string text_of_flow(const Json& flow, const jostle::Scene& scene, bool withheld) {
+    constexpr std::pair<const char*, const char*> averages[] = {{"viscosity", "viscosity"},
+                                                                {"viscosity_of_turning", "  of turning"},
+                                                                {"N1", "N1"},
+                                                                {"N2", "N2"},
+                                                                {"storage_modulus", "storage modulus G'"},
+                                                                {"loss_modulus", "loss modulus G''"}};
+    std::string text;
+    for (const auto& [key, name] : averages)
+        if (flow.contains(key))
+            text += line(name, mean_text(flow[key], scene) + "  " + support_text(flow[key], withheld));
+    const char* main = flow.contains("viscosity") ? "viscosity" : "storage_modulus";
+    return text + "  " + flow[main]["definition"].get<std::string>() + "\n";
 }
 
 /// Between walls these are no pressures (theory, section 6).
@@ -128,6 +152,7 @@ std::string summary_text(const Json& summary, const jostle::Scene& scene) {
     for (const auto& [key, name] : averages)
         if (summary.contains(key) && !(walls && is_third_of_trace(key)))
             text += line(name, mean_text(summary[key], scene) + "  " + support_text(summary[key], withheld));
+    if (summary.contains("flow")) text += text_of_flow(summary["flow"], scene, withheld);
     for (const Checks& checks : all_checks) text += text_of_checks(checks, summary["checks"], scene, withheld);
     if (walls) text += line("principal stresses", principal_text(summary["principal_stresses"], scene) + "  (total)");
     text += line("principal stresses",

@@ -24,6 +24,7 @@ class Frame:
     axis: np.ndarray      # (N, 3) unit vector
     length: np.ndarray    # (N) without the caps
     diameter: np.ndarray  # (N)
+    offset: float = 0.0   # of the copies above along y, along x, where a flow shears the box
     pressure: np.ndarray = None  # (N) of the collision stress of each rod, where it was kept; NaN where it is not known
 
     def __len__(self):
@@ -31,7 +32,9 @@ class Frame:
 
     def unwrapped(self):
         """(N, 3) centres as if no rod had been taken back into the box."""
-        return self.centre + self.image * self.edges
+        copies = self.image * self.edges
+        copies[:, 0] += self.image[:, 1] * self.offset
+        return self.centre + copies
 
     def ends(self):
         """Centres of the two caps, (N, 2, 3): tail and head."""
@@ -73,7 +76,8 @@ class Trajectory:
         there = np.flatnonzero(ids != NO_ROD)
         rows = there[np.argsort(ids[there], kind="stable")]
         edges = rods["box/edges"]
-        edges = edges["value"][k] if isinstance(edges, h5py.Group) else edges[()]
+        edges = np.asarray(edges["value"][k] if isinstance(edges, h5py.Group) else edges[()], float)
+        edges, offset = (np.diag(edges), float(edges[1, 0])) if edges.ndim == 2 else (edges, 0.0)
         boundary = [word.decode() if isinstance(word, bytes) else word for word in rods["box"].attrs["boundary"]]
 
         def column(name, kind):
@@ -86,7 +90,7 @@ class Trajectory:
         if "stress_collision" in rods:
             virial = np.trace(column("stress_collision", float), axis1=1, axis2=2)
             pressure = virial / 3.0 / (np.pi * diameter**2 * (length / 4.0 + diameter / 6.0))
-        return Frame(step=int(self.steps[k]), time=float(self.times[k]), edges=np.asarray(edges, float),
+        return Frame(step=int(self.steps[k]), time=float(self.times[k]), edges=edges, offset=offset,
                      periodic=np.array([word == "periodic" for word in boundary]), id=ids[rows],
                      centre=column("position", float), image=column("image", np.int32), axis=axis,
                      length=length, diameter=diameter, pressure=pressure)

@@ -34,7 +34,7 @@ def write(path, trajectory):
 def comment(frame):
     x, y, z = frame.edges
     periodic = " ".join("T" if along else "F" for along in frame.periodic)
-    return (f'Lattice="{x:.10g} 0 0 0 {y:.10g} 0 0 0 {z:.10g}" Origin="0 0 0" pbc="{periodic}" Properties={PROPERTIES} '
+    return (f'Lattice="{x:.10g} 0 0 {frame.offset:.10g} {y:.10g} 0 0 0 {z:.10g}" Origin="0 0 0" pbc="{periodic}" Properties={PROPERTIES} '
             f"Time={frame.time:.10g} Step={frame.step} {CREATOR}")
 
 

@@ -379,7 +379,7 @@ void bind_simulation(py::module_& module) {
         .def("kT", [](const SimulationInPython& self) { return self.simulation().settings().kT; })
         .def("box", [](const SimulationInPython& self) {
             const Box& box = self.simulation().box();
-            return py::make_tuple(array_of(box.edges()), box.periodic(), box.volume());
+            return py::make_tuple(array_of(box.edges()), box.periodic(), box.volume(), box.offset());
         });
 }
 

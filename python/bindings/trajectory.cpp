@@ -13,7 +13,7 @@ py::array copied(const std::vector<Element>& values, py::ssize_t width) {
     return py::array(py::dtype::of<Number>(), shape, reinterpret_cast<const Number*>(values.data()));
 }
 
-/// The next frame of a journal as (step, time, edges, periodic, columns), or None at the end.
+/// The next frame of a journal as (step, time, edges, periodic, offset, columns), or None at the end.
 py::object next_frame(TrajectoryReader& reader) {
     TrajectoryFrame frame;
     if (!reader.next(frame)) return py::none();
@@ -26,7 +26,7 @@ py::object next_frame(TrajectoryReader& reader) {
     columns["diameter"] = copied<float>(frame.diameter, 0);
     const auto& periodic = frame.box.periodic();
     return py::make_tuple(frame.step, frame.time, array_of(frame.box.edges()),
-                          py::make_tuple(periodic[0], periodic[1], periodic[2]), columns);
+                          py::make_tuple(periodic[0], periodic[1], periodic[2]), frame.box.offset(), columns);
 }
 
 }  // namespace

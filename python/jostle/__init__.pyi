@@ -44,6 +44,7 @@ class Scene:
     box: _Table
     walls: _Table
     forces: _Table
+    flow: _Table
     rods: _Table
     fluid: _Table
     mobility: _Table
@@ -107,6 +108,8 @@ class Simulation:
     def edges(self) -> _Array: ...
     @property
     def periodic(self) -> tuple[bool, bool, bool]: ...
+    @property
+    def offset(self) -> float: ...
     @property
     def volume(self) -> float: ...
     @property

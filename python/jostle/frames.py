@@ -47,7 +47,7 @@ def _some(trajectory, path):
 def _frame_of_simulation(simulation):
     rods, clock = simulation.rods, simulation.clock
     return Frame(clock.step, clock.time, simulation.edges, simulation.periodic, rods.id, rods.centre, rods.axis, rods.image,
-                 rods.length, rods.diameter)
+                 rods.length, rods.diameter, simulation.offset)
 
 
 def _frames_of_arrays(arrays):

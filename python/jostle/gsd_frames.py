@@ -59,7 +59,7 @@ def turning_z_to(axis):
 def snapshot(frame, kinds):
     made = gsd.hoomd.Snapshot()
     made.configuration.step = frame.step
-    made.configuration.box = [*edges_around(frame), 0, 0, 0]
+    made.configuration.box = [*edges_around(frame), frame.offset / frame.edges[1], 0, 0]
     rods = made.particles
     rods.N = len(frame)
     rods.types, rods.type_shapes = kinds.names, kinds.shapes
@@ -83,8 +83,13 @@ def edges_around(frame):
 def centred(frame):
     """Positions in a box around the origin, in [-edge/2, edge/2) where it is periodic, and images."""
     half = (0.5 * frame.edges).astype(np.float32)
-    position = (frame.centre - 0.5 * frame.edges).astype(np.float32)
-    image = frame.image.copy()
+    place, image = frame.centre - 0.5 * frame.edges, frame.image.copy()
+    if frame.offset != 0.0:  # into the oblique box, whose edge along y leans along x
+        beside = np.floor((frame.centre[:, 0] - frame.offset * frame.centre[:, 1] / frame.edges[1]) / frame.edges[0])
+        place[:, 0] -= beside * frame.edges[0] + 0.5 * frame.offset
+        image[:, 0] += beside.astype(image.dtype)
+        return place.astype(np.float32), image
+    position = place.astype(np.float32)
     beyond = (position >= half) & frame.periodic  # by rounding to float32
     image[beyond] += 1
     return np.where(beyond, -half, position), image

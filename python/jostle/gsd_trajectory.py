@@ -49,14 +49,15 @@ class GsdTrajectory(Sequence):
         shot = self._file[k]
         rods, log, count = shot.particles, shot.log, shot.particles.N
         edges = np.asarray(shot.configuration.box[:3], float)
-        if np.any(shot.configuration.box[3:]):
-            refuse("", "", f"frame {k} has a box that is not rectangular", file=str(self.path))
+        if np.any(shot.configuration.box[4:]):
+            refuse("", "", f"frame {k} has a box that leans otherwise than along x, as a flow u(y) makes it", file=str(self.path))
+        offset = float(shot.configuration.box[3]) * edges[1]
         ids = np.asarray(log.get("particles/id", np.arange(count)), np.uint64)
         order = np.argsort(ids, kind="stable")
         time = float(np.ravel(log.get("time", shot.configuration.step))[0])
         return Frame(int(shot.configuration.step), time, edges, (True, True, True), ids[order],
-                     (np.asarray(rods.position, float) + 0.5 * edges)[order], _axes(rods.orientation)[order],
-                     np.asarray(rods.image, np.int32)[order], _lengths(rods, log)[order], np.asarray(rods.diameter, float)[order])
+                     (np.asarray(rods.position, float) + 0.5 * (edges + [offset, 0, 0]))[order], _axes(rods.orientation)[order],
+                     np.asarray(rods.image, np.int32)[order], _lengths(rods, log)[order], np.asarray(rods.diameter, float)[order], offset)
 
 
 def _axes(quaternion):

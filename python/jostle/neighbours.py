@@ -34,7 +34,7 @@ def neighbours(frame, reach):
     if not (reach <= MOST_EDGES * np.where(periodic, edges, np.inf)).all():
         refuse("rods", f"a reach of {reach:g}", "goes through the box too often", f"at most {MOST_EDGES} of its edges")
     points, rod = centre, np.arange(len(centre))
-    for along in np.flatnonzero(periodic):
+    for along in [k for k in (1, 0, 2) if periodic[k]]:  # across y first: copies there are displaced along x
         images = int(np.ceil(reach / edges[along]))
         moved, of_rod = [points], [rod]
         for k in [k for k in range(-images, images + 1) if k != 0]:
@@ -42,6 +42,8 @@ def neighbours(frame, reach):
             near = (place >= -reach) & (place <= edges[along] + reach)
             copies = points[near].copy()
             copies[:, along] = place[near]
+            if along == 1 and frame.offset != 0.0:
+                copies[:, 0] = np.mod(copies[:, 0] + k * frame.offset, edges[0])
             moved.append(copies)
             of_rod.append(rod[near])
         points, rod = np.concatenate(moved), np.concatenate(of_rod)

@@ -182,6 +182,11 @@ class Simulation:
         return tuple(self._core.box()[1])
 
     @property
+    def offset(self):
+        """Length by which the copies above along y are displaced along x, where a flow shears the box; else 0."""
+        return self._core.box()[3]
+
+    @property
     def volume(self):
         """Of the box, length**3."""
         return self._core.box()[2]

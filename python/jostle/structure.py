@@ -158,6 +158,8 @@ def structure_factor(rods, largest=None):
     for frame in frames:
         if not all(frame.periodic):
             refuse("rods", "", "are in a box that is open: no wave vectors belong to it", "a box that is periodic in all directions")
+        if frame.offset != 0.0:
+            refuse("rods", "", "are in a box that a flow has sheared: its wave vectors lie obliquely", "a box that is rectangular")
         size, power = _powers(frame, largest)
         shell = np.minimum((size / width + 0.5).astype(int), shells) - 1
         with np.errstate(invalid="ignore"):

@@ -17,7 +17,8 @@ _DATASETS = {"centre": "position", "axis": "orientation", "image": "image", "len
 class Frame:
     """The rods at one time, in the order of their ids; single precision, to look at and to analyse.
 
-    step, time; edges (3), length; periodic (3)
+    step, time; edges (3), length; periodic (3); offset, length: the copies above along y are displaced by it along x, where
+    a flow shears the box
     id (N), uint64; centre (N, 3), length, inside the box along periodic directions; image (N, 3), box edges crossed;
     axis (N, 3), unit vectors; length, diameter (N), length
     """
@@ -31,6 +32,7 @@ class Frame:
     image: np.ndarray
     length: np.ndarray
     diameter: np.ndarray
+    offset: float = 0.0
 
     def __len__(self):
         return len(self.id)
@@ -38,7 +40,9 @@ class Frame:
     @property
     def unwrapped(self):
         """(N, 3) array, length: centres as if the box had no edges."""
-        return self.centre + self.image * self.edges
+        copies = self.image * self.edges
+        copies[:, 0] += self.image[:, 1] * self.offset
+        return self.centre + copies
 
 
 def open_trajectory(folder):
@@ -80,10 +84,11 @@ class H5mdTrajectory(Sequence):
         there = np.flatnonzero(ids != _NO_ROD)
         rows = there[np.argsort(ids[there], kind="stable")]
         edges = rods["box/edges"]
-        edges = edges["value"][k] if hasattr(edges, "keys") else edges[()]
+        edges = np.asarray(edges["value"][k] if hasattr(edges, "keys") else edges[()], float)
+        edges, offset = (np.diag(edges), float(edges[1, 0])) if edges.ndim == 2 else (edges, 0.0)
         boundary = [word.decode() if isinstance(word, bytes) else word for word in rods["box"].attrs["boundary"]]
         columns = {name: rods[f"{dataset}/value"][k][rows] for name, dataset in _DATASETS.items()}
-        return Frame(step=int(self.steps[k]), time=float(self.times[k]), edges=np.asarray(edges, float),
+        return Frame(step=int(self.steps[k]), time=float(self.times[k]), edges=edges, offset=offset,
                      periodic=tuple(word == "periodic" for word in boundary), id=ids[rows], **columns)
 
     def _read(self, action):
@@ -103,8 +108,8 @@ class JournalTrajectory(Sequence):
     def __iter__(self):
         reader = _jostle.JournalReader(str(self.path))
         while (found := reader.next()) is not None:
-            step, time, edges, periodic, columns = found
-            yield Frame(step, time, edges, periodic, **columns)
+            step, time, edges, periodic, offset, columns = found
+            yield Frame(step, time, edges, periodic, offset=offset, **columns)
 
     def __len__(self):
         return sum(1 for _ in self)

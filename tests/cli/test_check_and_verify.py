@@ -119,7 +119,7 @@ def test_defaults_are_spelled_out(tmp_path):
     assert number(derived["rms step / D"]) == pytest.approx(0.03, rel=1e-3)
     assert set(scene) == {"title", "seed", "units", "box", "rods", "fluid", "mobility", "motion", "growth", "contact",
                           "solver",
-                          "time", "output", "walls", "forces"}
+                          "time", "output", "walls", "forces", "flow"}
     assert scene["solver"] == {"method": "auto", "warm_start": "auto", "step_rule": "bb1", "residual": "length",
                                "tolerance": 1e-5, "max_iterations": 10000}
     assert scene["contact"] == {"model": "hard", "brownian_correction": True, "range": "auto", "overlap_limit": 0.2}

@@ -47,6 +47,7 @@ inline std::vector<BrutePair> brute_force_pairs(const Rods& rods, const Box& box
         if (box.periodic()[direction])
             most[direction] = 1 + static_cast<int>(std::ceil((reach + range) / box.edges()[k]));
     }
+    most[0] += static_cast<int>(std::ceil(most[1] * std::fabs(box.offset()) / box.edges().x));
     for (std::size_t i = 0; i < rods.size(); ++i)
         for (std::size_t j = i; j < rods.size(); ++j)
             for (int x = -most[0]; x <= most[0]; ++x)

@@ -57,6 +57,7 @@ CellGrid::CellGrid(const Rods& rods, const Box& box, double range) : periodic_(b
         cells_per_length_[k] = count_[direction] / extent[k];
         width_[direction] = whole(std::ceil(range * cells_per_length_[k]), 0.0, widest_reach);
     }
+    offset_ = box.offset() * cells_per_length_.x;
 }
 
 std::size_t CellGrid::cell_of(const Vec3& centre) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "jostle/rods/box.hpp"
 #include "jostle/rods/rods.hpp"
@@ -35,6 +36,9 @@ public:
     Image farthest_image() const {
         Image farthest;
         for (std::size_t k = 0; k < 3; ++k) farthest[k] = periodic_[k] ? image_of(count_[k] - 1 + width_[k], k) : 0;
+        if (offset_ == 0.0) return farthest;
+        const double beyond = std::ceil(std::fabs(offset_) * farthest[1]);
+        farthest[0] = image_of(count_[0] - 1 + width_[0] + static_cast<int>(beyond), 0);
         return farthest;
     }
 
@@ -47,9 +51,12 @@ public:
             for (int y = first(place, 1); y <= last(place, 1); ++y) {
                 const int image_y = image_of(y, 1), image_z = image_of(z, 2);
                 const int row = ((z - image_z * count_[2]) * count_[1] + y - image_y * count_[1]) * count_[0];
-                for (int x = first(place, 0); x <= last(place, 0);) {
+                // The cells of copies above stand by a part of a cell beside those of the home: one more is in range.
+                const double above = image_y * offset_;
+                const int last_x = last(place, 0) + static_cast<int>(std::ceil(-above));
+                for (int x = first(place, 0) + static_cast<int>(std::floor(-above)); x <= last_x;) {
                     const int image_x = image_of(x, 0), offset = image_x * count_[0];
-                    const int end = std::min(last(place, 0), offset + count_[0] - 1);
+                    const int end = std::min(last_x, offset + count_[0] - 1);
                     found(static_cast<std::size_t>(row + x - offset), static_cast<std::size_t>(row + end - offset),
                           Image{image_x, image_y, image_z});
                     x = end + 1;
@@ -73,6 +80,7 @@ private:
     std::array<bool, 3> periodic_;
     std::array<int, 3> count_{};  ///< cells along each direction
     std::array<int, 3> width_{};  ///< how many cells `range` reaches to each side
+    double offset_ = 0.0;         ///< of the copies above, in cells along x
     Vec3 origin_;
     Vec3 cells_per_length_;
 };

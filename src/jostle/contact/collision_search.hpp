@@ -59,6 +59,8 @@ public:
 
     /// To be told where the box is stretched, and all centres with it.
     void stretch(const Vec3& by) { neighbours_.stretch(by); }
+    /// To be told where it is sheared, and all centres with it: x by `strain` y. Images have to keep their numbers.
+    void shear(double strain) { neighbours_.shear(strain); }
 
     /// Forgets the neighbour list (rods were added, removed or renumbered).
     void invalidate() { neighbours_.invalidate(); }

@@ -237,6 +237,14 @@ void NeighbourList::stretch(const Vec3& by) {
     });
 }
 
+// Nearest points m apart, of rods whose centres are m + a apart, where a is at most one length: a strain e brings them
+// nearer by e |m_y + a_y| |m_x|/|m| at most, which is e (|m|/2 + length).
+void NeighbourList::shear(double strain) {
+    squeezed_ += std::fabs(strain) * 0.5 * (centre_range_ + longest_);
+    parallel_for(reference_.centre.size(),
+                 [&](std::size_t i) { reference_.centre[i].x += strain * reference_.centre[i].y; });
+}
+
 bool NeighbourList::refresh(const Rods& rods, const Box& box, std::span<const double> ranges) {
     extent_.resize(rods.size());
     crossed_.resize(rods.size());
@@ -303,6 +311,7 @@ void NeighbourList::build(const Rods& rods, const Box& box, double list_range) {
     const double longest =
         parallel_max(rods.size(), 0.0, [&](std::size_t i) { return rods.length[i] + rods.diameter[i]; });
     const double range = centre_range_ = longest + list_range;
+    longest_ = parallel_max(rods.size(), 0.0, [&](std::size_t i) { return rods.length[i]; });
     squeezed_ = 0.0;
     const CellList cells(rods, box, range);
     const ImageNumbers images(cells.farthest_image());

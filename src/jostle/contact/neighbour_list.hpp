@@ -46,6 +46,10 @@ public:
     /// To be told where the box is stretched, and all centres with it: gaps of the pairs that count change little.
     void stretch(const Vec3& by);
 
+    /// To be told where the box is sheared, and all centres with it: x by `strain` y. Images have to keep their
+    /// numbers.
+    void shear(double strain);
+
     /// Forces building at the next update (rods were added, removed or renumbered).
     void invalidate() { reference_.centre.clear(); }
 
@@ -102,6 +106,7 @@ private:
     double skin_;
     double list_range_ = 0.0;
     double centre_range_ = 0.0;      ///< of centres, within which pairs were looked for
+    double longest_ = 0.0;           ///< rod, without its caps
     double squeezed_ = 0.0;          ///< by so much gaps have changed since, at most, with the box alone
     double units_per_length_ = 0.0;  ///< gaps are kept in units of which 65535 are the range of the list
     struct Reference {

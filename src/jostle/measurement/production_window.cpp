@@ -7,7 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "jostle/measurement/stress_columns.hpp"
 #include "jostle/measurement/summary_entries.hpp"
+#include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/schedule.hpp"
 #include "jostle/statistics/equilibration.hpp"
@@ -34,6 +36,14 @@ WatchedColumn watched(const SeriesTable& series, std::size_t first, const char* 
     return {words, std::move(rows)};
 }
 
+/// Of the whole stress, which a flow keeps up.
+std::vector<double> shear_stress(const Scene& scene, const SeriesTable& series, std::size_t first) {
+    const Columns stress = total_stress_columns(series, first, !scene.springs.file.empty(), false);
+    std::vector<double> rows = stress[1];
+    for (std::size_t row = 0; row < rows.size(); ++row) rows[row] = 0.5 * (rows[row] + stress[3][row]);
+    return rows;
+}
+
 /// What is ramped is not in equilibrium.
 EquilibriumCheck by_schedule(const Scene& scene) {
     EquilibriumCheck check;
@@ -48,6 +58,7 @@ ProductionSeries production_series(const Scene& scene, const SeriesTable& series
     ProductionSeries production;
     production.row_time = time.empty() ? 0.0 : (time.back() - begin) / static_cast<double>(time.size());
     production.watched = {watched(series, first, "pressure_collision", "collision pressure")};
+    if (flows(scene)) production.watched.push_back({"shear stress", shear_stress(scene, series, first)});
     if (!scene.springs.file.empty())
         production.watched.push_back(watched(series, first, "pressure_springs", "pressure of springs"));
     if (swims(scene)) production.watched.push_back(watched(series, first, "pressure_active", "active pressure"));
@@ -81,7 +92,10 @@ ProductionWindow production_window(const Scene& scene, const SeriesTable& series
             return detect_equilibration(from_row(series.column(name), after_schedule));
         };
         const Equilibration by_pressure = settled("pressure_collision"), by_order = settled("nematic_order");
-        window.first_row = after_schedule + std::max(by_pressure.start, by_order.start);
+        std::size_t start = std::max(by_pressure.start, by_order.start);
+        if (flows(scene))
+            start = std::max(start, detect_equilibration(shear_stress(scene, series, after_schedule)).start);
+        window.first_row = after_schedule + start;
         window.equilibration_time = window.first_row == 0 ? begin : time[window.first_row - 1];
         found = by_pressure.reached;
     }

@@ -2,11 +2,14 @@
 
 #include <cmath>
 
+#include "jostle/measurement/flow_columns.hpp"
 #include "jostle/measurement/wall_columns.hpp"
 #include "jostle/parallel/parallel_for.hpp"
+#include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/scene_walls.hpp"
 #include "jostle/scene/units.hpp"
+#include "jostle/simulation/flow_stress.hpp"
 #include "jostle/stress/orientation_stress.hpp"
 
 namespace jostle {
@@ -193,7 +196,11 @@ RowState::RowState(const Simulation& of, const StepSums& since_last_row)
                              {.collision = (1.0 / sums.steps) * sums.collision_virial,
                               .orientation = sum_of_orientation_stresses(of.rods(), of.settings().kT),
                               .springs = (1.0 / sums.steps) * sums.spring_virial})),
-      order(nematic_order(of.rods().axis)) {}
+      order(nematic_order(of.rods().axis)) {
+    if (const auto& flow = of.settings().flow)
+        flow_virial = sum_of_flow_stresses(of.rods(), *of.mobility().at(of.rods(), of.box()), *flow, of.clock(),
+                                           of.settings().time_step);
+}
 
 TableColumns<RowState> series_columns(const Scene& scene) {
     Series series{"series", {}};
@@ -203,6 +210,7 @@ TableColumns<RowState> series_columns(const Scene& scene) {
     add_order_columns(series);
     add_contact_columns(scene, series);
     if (scene_walls(scene).any()) add_wall_columns(scene, series);
+    if (has_flow(scene)) add_flow_columns(scene, series);
     if (!scene.springs.file.empty()) add_spring_columns(scene, series);
     if (!scene.rods.fixed.empty()) add_fixed_rod_columns(scene, series);
     if (has_torques(scene)) add_torque_columns(scene, series);

@@ -25,6 +25,7 @@ struct RowState {
     double density;      ///< rods per volume, mean over the steps: cells may have divided since the last row
     Stress stress;       ///< mean over the steps; the orientation stress at this step
     NematicOrder order;  ///< at this step
+    Mat3 flow_virial;    ///< what a flow turns the axes by, at this step (`sum_of_flow_stresses`)
 };
 
 /// The columns of series.csv, in their order: name, unit, symbol, definition, sign and value of each.

@@ -8,6 +8,7 @@
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/math/symmetric_eigen.hpp"
+#include "jostle/measurement/flow_summary.hpp"
 #include "jostle/measurement/production_window.hpp"
 #include "jostle/measurement/stress_columns.hpp"
 #include "jostle/measurement/stress_ratio_checks.hpp"
@@ -16,6 +17,7 @@
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/run_files/version.hpp"
 #include "jostle/scene/rod_size.hpp"
+#include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/schedule.hpp"
 #include "jostle/scene/units.hpp"
@@ -214,6 +216,7 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
         summary["stress_torques"] =
             tensor_entry(window_columns(series, first, torque_stress_column_names), stress_unit);
     if (swims(scene)) summarise_active_stress(series, first, stress_unit, summary);
+    if (flows(scene)) summary["flow"] = flow_entry(scene, series, first, stress);
     summary["principal_stresses"] = mean_principal_stresses(stress, stress_unit);
     summary["principal_stresses_collision"] = mean_principal_stresses(collision, stress_unit);
     if (scene.output.stress_conventions)
@@ -248,6 +251,11 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     if (in_equilibrium && all_alike(rods) && !walls.any() && !has_torques(scene))
         checks["collision_stress_ratio"] = collision_stress_ratio_check(
             collision, order, from_row(series.column("Z"), first), rods.length.front() / rods.diameter.front());
+    const bool turns = std::any_of(rods.length.begin(), rods.length.end(), [](double length) { return length > 0.0; });
+    if (flows(scene) && !oscillates(scene) && turns && thermal && !springs && !ramped) {
+        checks["torque_ratio"] = torque_ratio_check(series, first);
+        checks["torque_identity"] = torque_identity_check(series, first, stress_unit);
+    }
     summary["checks"] = checks;
     const Average count = average_of("N");
     if (count.standard_deviation > 0.0 && !count.standard_error)

@@ -13,6 +13,9 @@ namespace jostle {
 /// A rectangular box with one corner at the origin, periodic, open or closed by walls along each direction. A box of
 /// another size is another box.
 ///
+/// Where the rods are sheared, the copies above along y are displaced along x (Lees and Edwards): one copy above by
+/// `offset`, two by twice as much.
+///
 /// Open means without walls: rods may leave; the edge then only defines the volume that phi and n refer to.
 class Box {
 public:
@@ -26,6 +29,8 @@ public:
     const Walls& walls() const { return walls_; }
     /// Rods that no force moves (theory, section 6), with ids from 0; null: none.
     const std::shared_ptr<const Rods>& fixed_rods() const { return fixed_rods_; }
+    /// At most half the edge along x, to either side: beyond, the next copy is nearer.
+    double offset() const { return offset_; }
     bool is_periodic() const { return periodic_[0] && periodic_[1] && periodic_[2]; }
 
     /// Between the walls.
@@ -50,12 +55,17 @@ public:
     /// The point that lies at these parts of the edges, 0 to 1 within the box.
     Vec3 point_at(const Vec3& parts) const { return {parts.x * edges_.x, parts.y * edges_.y, parts.z * edges_.z}; }
 
-    /// The vector by which a copy is displaced: image * edges, element by element.
+    /// The same box, the copies above displaced so; it has to be periodic along x and y. `offset`: any length, of which
+    /// whole edges are left out.
+    Box sheared(double offset) const;
+
+    /// The vector by which a copy is displaced: image * edges, element by element, and the offset of copies above.
     Vec3 displacement(const Image& image) const {
-        return {image[0] * edges_.x, image[1] * edges_.y, image[2] * edges_.z};
+        return {image[0] * edges_.x + image[1] * offset_, image[1] * edges_.y, image[2] * edges_.z};
     }
 
-    /// Moves `centre` into [0, edge) along periodic directions, and counts the edges crossed in `image`.
+    /// Moves `centre` into [0, edge) along periodic directions, and counts the edges crossed in `image`:
+    /// centre + displacement(image) stays.
     void wrap(Vec3& centre, Image& image) const;
 
 private:
@@ -63,6 +73,7 @@ private:
     std::array<bool, 3> periodic_{true, true, true};
     Walls walls_{};
     std::shared_ptr<const Rods> fixed_rods_{};
+    double offset_ = 0.0;
 };
 
 }  // namespace jostle

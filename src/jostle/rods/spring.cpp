@@ -70,11 +70,13 @@ void hold_nearest_images(std::vector<Spring>& springs, const Rods& rods, const B
     for (Spring& spring : springs) spring.image = {};
     const std::vector<SpringPull> pulls = spring_pulls(springs, rods, box);
     for (std::size_t l = 0; l < springs.size(); ++l) {
-        const Vec3 separation = pulls[l].separation(springs[l], rods.centre, rods.axis);
-        for (int k = 0; k < 3; ++k)
-            if (box.periodic()[static_cast<std::size_t>(k)])
-                springs[l].image[static_cast<std::size_t>(k)] =
-                    -static_cast<std::int32_t>(std::lround(separation[k] / box.edges()[k]));
+        Vec3 separation = pulls[l].separation(springs[l], rods.centre, rods.axis);
+        for (const int k : {1, 0, 2}) {  // across y first, which may move a copy along x
+            if (!box.periodic()[static_cast<std::size_t>(k)]) continue;
+            const auto image = -static_cast<std::int32_t>(std::lround(separation[k] / box.edges()[k]));
+            springs[l].image[static_cast<std::size_t>(k)] = image;
+            if (k == 1) separation.x += image * box.offset();
+        }
     }
 }
 

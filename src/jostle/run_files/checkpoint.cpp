@@ -174,6 +174,7 @@ FieldWriter fields_of(const Checkpoint& checkpoint) {
     std::array<std::uint8_t, 3> periodic{};
     std::copy(checkpoint.state.box.periodic().begin(), checkpoint.state.box.periodic().end(), periodic.begin());
     writer.put("box.periodic", periodic);
+    if (checkpoint.state.box.offset() != 0.0) writer.put("box.offset", checkpoint.state.box.offset());
     put_walls(writer, checkpoint.state.box.walls());
     put_fixed_rods(writer, checkpoint.state.box);
     put_rods(writer, checkpoint.state.rods);
@@ -195,6 +196,8 @@ Checkpoint from_fields(std::string_view payload) {
     const auto periodic = reader.take<std::array<std::uint8_t, 3>>("box.periodic");
     checkpoint.state.box = Box(edges, {periodic[0] != 0, periodic[1] != 0, periodic[2] != 0}, take_walls(reader))
                                .with_fixed_rods(take_fixed_rods(reader));
+    if (!reader.names_after("box.offset").empty())
+        checkpoint.state.box = checkpoint.state.box.sheared(reader.take<double>("box.offset"));
     checkpoint.state.rods = take_rods(reader);
     checkpoint.state.springs = take_springs(reader);
     checkpoint.state.previous_forces = take_forces(reader);

@@ -46,6 +46,7 @@ bool is_zero_or_positive(double value) {
 void check_box(const Box& box, ContentCheck& check) {
     for (int k = 0; k < 3; ++k)
         check.require(within(box.edges()[k], Range::smallest, Range::largest), "edge of the box", box.edges()[k]);
+    check.require(within(std::fabs(box.offset()), 0.0, box.edges().x), "offset of the box", box.offset());
 }
 
 void check_rods(const Rods& rods, const Box& box, ContentCheck& check) {

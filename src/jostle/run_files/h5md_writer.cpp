@@ -25,7 +25,8 @@ struct JournalShape {
     hsize_t largest_count = 0;
     bool has_stress = false;
     bool box_varies = false;
-    Box box;  // of the first frame
+    bool is_sheared = false;  // in any frame
+    Box box;                  // of the first frame
 };
 
 JournalShape shape_of(const std::string& journal_path) {
@@ -35,6 +36,7 @@ JournalShape shape_of(const std::string& journal_path) {
     for (TrajectoryFrame frame; reader.next(frame); ++shape.frames) {
         if (shape.frames == 0) shape.box = frame.box;
         shape.box_varies = shape.box_varies || !(frame.box.edges() == shape.box.edges());
+        shape.is_sheared = shape.is_sheared || frame.box.offset() != 0.0;
         shape.largest_count = std::max<hsize_t>(shape.largest_count, frame.size());
     }
     return shape;
@@ -77,9 +79,15 @@ Hdf5Id write_box(hid_t rods, const JournalShape& shape, const H5mdAttributes& at
     for (const bool periodic : shape.box.periodic())
         boundary += periodic ? "periodic" : std::string("none\0\0\0\0", width);
     put_attribute(box, "boundary", text_type(width), {3}, boundary.data());
-    if (!shape.box_varies)
+    if (!shape.box_varies && !shape.is_sheared)
         put_compact(box, "edges", H5T_NATIVE_DOUBLE, {3}, &shape.box.edges(), attributes.length_unit);
     return box;
+}
+
+/// A row each, as H5MD has it for boxes that are not rectangular.
+Mat3 edge_vectors(const Box& box) {
+    const auto [x, y, z] = box.edges();
+    return Mat3{{x, 0, 0, box.offset(), y, 0, 0, 0, z}};
 }
 
 std::vector<Mat3> orientation_stress_of_rods(const TrajectoryFrame& frame, double kT) {
@@ -113,7 +121,10 @@ void write_particles(hid_t file, const std::string& journal_path, const JournalS
     };
     if (shape.has_stress) collision = of_stress("stress_collision");
     if (shape.has_stress && attributes.kT) orientation = of_stress("stress_orientation");
-    if (shape.box_varies) edges = position.beside(box, "edges", H5T_NATIVE_DOUBLE, {t, 3}, nullptr, unit);
+    if (shape.is_sheared)
+        edges = position.beside(box, "edges", H5T_NATIVE_DOUBLE, {t, 3, 3}, nullptr, unit);
+    else if (shape.box_varies)
+        edges = position.beside(box, "edges", H5T_NATIVE_DOUBLE, {t, 3}, nullptr, unit);
 
     TrajectoryReader reader(journal_path);
     TrajectoryFrame frame;
@@ -128,7 +139,10 @@ void write_particles(hid_t file, const std::string& journal_path, const JournalS
         if (collision) collision->write(k, count, frame.stress.data());
         if (orientation)
             orientation->write(k, count, orientation_stress_of_rods(frame, attributes.kT(frame.time)).data());
-        if (edges) edges->write(k, 3, &frame.box.edges());
+        if (edges && shape.is_sheared)
+            edges->write(k, 3, edge_vectors(frame.box).m.data());
+        else if (edges)
+            edges->write(k, 3, &frame.box.edges());
     }
 }
 

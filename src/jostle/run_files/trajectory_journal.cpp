@@ -1,5 +1,7 @@
 #include "jostle/run_files/trajectory_journal.hpp"
 
+#include <bit>
+#include <cmath>
 #include <string_view>
 
 namespace jostle {
@@ -36,8 +38,12 @@ void put_single(ByteWriter& writer, const std::vector<double>& values) {
     for (const double value : values) writer.put(static_cast<float>(value));
 }
 
+/// The upper half is the offset of copies, in single precision as centres are.
 std::uint64_t periodic_bits(const Box& box) {
-    return (box.periodic()[0] ? 1u : 0u) | (box.periodic()[1] ? 2u : 0u) | (box.periodic()[2] ? 4u : 0u);
+    float single = static_cast<float>(box.offset());
+    if (std::fabs(single) > 0.5 * box.edges().x) single = std::nextafter(single, 0.0F);  // would be the other way round
+    const std::uint64_t offset = std::bit_cast<std::uint32_t>(single);
+    return (box.periodic()[0] ? 1u : 0u) | (box.periodic()[1] ? 2u : 0u) | (box.periodic()[2] ? 4u : 0u) | offset << 32;
 }
 
 /// Fills the frame's header and returns N. The frame mark has been read before.
@@ -46,7 +52,8 @@ std::uint64_t take_header(ByteReader& reader, TrajectoryFrame& frame) {
     frame.time = reader.take<double>();
     const Vec3 edges = reader.take<Vec3>();
     const auto periodic = reader.take<std::uint64_t>();
-    frame.box = Box(edges, {(periodic & 1u) != 0, (periodic & 2u) != 0, (periodic & 4u) != 0});
+    frame.box = Box(edges, {(periodic & 1u) != 0, (periodic & 2u) != 0, (periodic & 4u) != 0})
+                    .sheared(std::bit_cast<float>(static_cast<std::uint32_t>(periodic >> 32)));
     return reader.take<std::uint64_t>();
 }
 

@@ -22,9 +22,9 @@ inline constexpr const char* trajectory_journal_name = "trajectory.journal";  //
 /// Why not HDF5 at once: a kill within a flush, or a full disk, leaves an HDF5 file that no longer opens. Here the
 /// worst is one incomplete frame at the end. Format, little endian: 8 bytes "\x89JTRAJ\r\n", version (u32), content
 /// (u32; 0, or 1: with stress); then frames: "FRAME\0\0\0", step (u64), time (f64), box edges (3 f64), periodic (u64,
-/// bit k for direction k), N (u64), XXH3 of these (u64); id (N u64), centre (3N f32), image (3N i32), axis (3N f32),
-/// length (N f32), diameter (N f32), with stress that of every rod (9N f64); XXH3 of the whole frame before it (u64). N
-/// may change from frame to frame; steps increase.
+/// bit k for direction k; upper half: offset of copies above along y, f32), N (u64), XXH3 of these (u64); id (N u64),
+/// centre (3N f32), image (3N i32), axis (3N f32), length (N f32), diameter (N f32), with stress that of every rod (9N
+/// f64); XXH3 of the whole frame before it (u64). N may change from frame to frame; steps increase.
 class TrajectoryJournal {
 public:
     enum class Content : std::uint32_t { rods = 0, rods_and_stress = 1 };

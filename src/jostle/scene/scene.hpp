@@ -99,6 +99,14 @@ struct Scene {
         bool operator==(const ForcesTable&) const = default;
     } forces;
 
+    struct FlowTable {
+        double shear_rate = 0.0;        // of the flow u = shear_rate y along x; either this ...
+        double strain_amplitude = 0.0;  // ... or a strain amplitude sin(2 pi frequency t)
+        double frequency = 0.0;         // periods in a unit of time
+        double start_strain = 0.0;      // of the box when the run begins
+        bool operator==(const FlowTable&) const = default;
+    } flow;
+
     GrowthLaw growth;  // rate 0: none
 
     struct ScheduleTable {

@@ -102,6 +102,10 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
           Quantity{dim::energy, {-Range::largest, Range::largest}});
     visit("forces", "alignment_axis", scene.forces.alignment_axis,
           Quantity{dim::none, {-Range::largest, Range::largest}});
+    visit("flow", "shear_rate", scene.flow.shear_rate, Quantity{dim::rate, {-Range::largest, Range::largest}});
+    visit("flow", "strain_amplitude", scene.flow.strain_amplitude, Quantity{dim::none, {0.0, 1e3}});
+    visit("flow", "frequency", scene.flow.frequency, Quantity{dim::rate, zero_or_positive});
+    visit("flow", "start_strain", scene.flow.start_strain, Quantity{dim::none, {0.0, 1e6}});
     visit("growth", "rate", scene.growth.rate, Quantity{dim::speed, zero_or_positive});
     visit("growth", "rate_deviation", scene.growth.rate_deviation, Quantity{dim::none, {0.0, 0.5}});
     visit("growth", "division", scene.growth.division, Plain{});

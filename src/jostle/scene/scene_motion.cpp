@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "jostle/motion/external_forces.hpp"
+#include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_walls.hpp"
 
 namespace jostle {
@@ -59,7 +60,7 @@ bool drifts(const Scene& scene) {
 
 bool keeps_equilibrium(const Scene& scene) {
     const auto motions = motions_of(scene);
-    return thermal_energy(scene) > 0.0 && scene.growth.rate == 0.0 &&
+    return thermal_energy(scene) > 0.0 && scene.growth.rate == 0.0 && !flows(scene) &&
            std::all_of(motions.begin(), motions.end(), [](const auto& motion) { return motion->keeps_equilibrium(); });
 }
 

@@ -13,6 +13,7 @@
 #include "jostle/scene/number_text.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_box.hpp"
+#include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/schedule.hpp"
 
@@ -32,6 +33,10 @@ constexpr double automatic_relaxation = 0.05, advised_relaxation = 0.1, largest_
 constexpr double automatic_throw = 1.0, advised_throw = 1.5, largest_throw = 2.0;
 /// In D, by which rods that touch are brought nearer: as what cells lengthen by, it is a gap that contacts open again.
 constexpr double automatic_squeeze = 0.01, advised_squeeze = 0.03, largest_squeeze = 0.1;
+/// Of one step, by which the flow shears the box.
+constexpr double automatic_strain = 0.01, advised_strain = 0.02, largest_strain = 0.1;
+/// Of the root mean square step of noise, by which the flow takes rods that touch.
+constexpr double advised_flow_to_noise = 0.5, largest_flow_to_noise = 2.5;
 /// In kT: the energy with which one pair in 150 meets.
 constexpr double high_energy = 5.0;
 /// Of the angle by which its own images let a rod be inclined.
@@ -156,6 +161,49 @@ std::vector<StepLimit> squeeze_limits(const Scene& scene, const Rods& rods) {
              .largest = largest_squeeze}};
 }
 
+/// The flow takes rods that touch apart, or together, by up to the strain times their length; and turns them.
+std::vector<StepLimit> flow_limits(const Scene& scene, const Rods& rods, const MobilityOperator& mobility) {
+    if (!flows(scene)) return {};
+    const ShearFlow flow = flow_of(scene);
+    const bool steady = flow.rate != 0.0;
+    const double rate = std::fabs(flow.rate) + flow.amplitude * flow.angular_frequency;
+    StepLimit strain = {.key = steady ? "flow.shear_rate" : "flow.strain_amplitude",
+                        .value = text(steady ? flow.rate : flow.amplitude),
+                        .number = std::fabs(steady ? flow.rate : flow.amplitude),
+                        .harm = "turns rods too far in a step",
+                        .what = "the strain of a step is up to",
+                        .unit = "",
+                        .remedy = "a slower flow",
+                        .rate = rate,
+                        .automatic = automatic_strain,
+                        .advised = advised_strain,
+                        .largest = largest_strain};
+    StepLimit against_noise = strain, in_diameters = strain;
+    const double kT = thermal_energy(scene);
+    against_noise.number = 0.0;
+    against_noise.rate = 0.0;
+    against_noise.diffusive = true;
+    against_noise.harm = "takes rods that touch too far";
+    against_noise.what = "the flow takes the ends of rods that touch, over the rms step of noise, by up to";
+    against_noise.automatic = against_noise.advised = advised_flow_to_noise;
+    against_noise.largest = largest_flow_to_noise;
+    in_diameters.rate = 0.0;
+    in_diameters.harm = against_noise.harm;
+    in_diameters.what = "the flow takes the ends of rods that touch by up to";
+    in_diameters.unit = "D";
+    in_diameters.automatic = automatic_squeeze;
+    in_diameters.advised = advised_squeeze;
+    in_diameters.largest = largest_squeeze;
+    for (std::size_t i = 0; i < rods.size(); ++i) {
+        const double way = rate * (rods.length[i] + rods.diameter[i]);
+        const RodMobility rod = mobility.of_rod(i);
+        const double diffusion = kT * (rod.parallel + 2.0 * rod.perpendicular) / 3.0;
+        if (kT > 0.0) against_noise.rate = std::max(against_noise.rate, way * way / (2.0 * diffusion));
+        in_diameters.rate = std::max(in_diameters.rate, way / rods.diameter[i]);
+    }
+    return {strain, kT > 0.0 ? against_noise : in_diameters};
+}
+
 /// The narrowest that a schedule makes the box, edge by edge.
 Box narrowest(const Scene& scene, const Box& box, const Rods& rods) {
     if (!squeezes_box(scene)) return box;
@@ -260,6 +308,7 @@ std::vector<StepLimit> step_limits(const Scene& scene, const Mobility& model, co
     std::vector<StepLimit> limits = free_step_limits(scene, model, box, rods);
     append(limits, image_limits(hardest, narrowest(scene, box, rods), rods, *mobility));
     append(limits, wall_limits(hardest, narrowest(scene, box, rods), rods, *mobility));
+    append(limits, flow_limits(hardest, rods, *mobility));
     if (squeezes_box(scene)) append(limits, squeeze_limits(scene, rods));
     if (scene.contact.model == ContactModel::wca) limits.push_back(potential_limit(hardest, rods, *mobility));
     if (!springs.empty()) limits.push_back(spring_limit(scene, springs, rods, *mobility));

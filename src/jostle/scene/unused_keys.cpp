@@ -53,6 +53,9 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
             unused.push_back({key,
                               fmt::format("is not used with mobility.model = \"{}\"", word_of(scene.mobility.model)),
                               "Set model = \"hydrodynamic\", or remove it"});
+    if (scene.flow.strain_amplitude == 0.0)
+        unused.push_back({"flow.frequency", "is not used with flow.strain_amplitude = 0: nothing goes to and fro",
+                          "Set strain_amplitude, or remove frequency"});
     const bool soft = scene.contact.model == ContactModel::wca;
     const std::string with_model = fmt::format("is not used with contact.model = \"{}\"", word_of(scene.contact.model));
     if (!soft) unused.push_back({"contact.energy", with_model, "Set model = \"wca\", or remove energy"});

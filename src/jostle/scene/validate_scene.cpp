@@ -14,6 +14,7 @@
 #include "jostle/scene/number_text.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_box.hpp"
+#include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_mobility.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/scene_ranges.hpp"
@@ -115,6 +116,7 @@ void check_room(const Scene& scene) {
     check_packing(scene);
     validate_box(scene, rods_volume(scene), largest_diameter(scene));
     validate_walls(scene, rods_volume(scene), largest_length(scene), largest_diameter(scene));
+    validate_sheared_box(scene, rods_volume(scene), largest_length(scene) + largest_diameter(scene));
     check_packing_of_schedule(scene);
 }
 
@@ -247,7 +249,7 @@ void check_time(const Scene& scene) {
                "Keep one of them");
     const bool moves = thermal_energy(scene_at_its_hardest(scene)) > 0.0 || swims(scene) || squeezes_box(scene) ||
                        scene.growth.rate > 0.0 || !scene.springs.file.empty() || scene.forces.on_rods != Vec3{} ||
-                       scene.forces.alignment_energy != 0.0;
+                       scene.forces.alignment_energy != 0.0 || flows(scene);
     if (!scene.time.step && !scene.time.rms_step && !moves)
         refuse("time.step", "", "is missing, and nothing in the scene moves that a step could be found from",
                "a time, greater than 0", "Add step = 1e-3 under [time]");
@@ -303,16 +305,17 @@ const std::vector<TogetherCheck>& together_checks() {
     static const std::vector<TogetherCheck> checks = {
         {check_start, {"rods"}},
         {check_box_given_once, {"box"}},
-        {check_box, {"box", "walls", "rods", "schedule"}},
+        {check_box, {"box", "walls", "rods", "schedule", "flow"}},
         {check_motion, {"motion", "schedule"}},
         {check_mobility, {"mobility", "rods"}},
         {validate_fluid, {"mobility", "rods", "box", "motion", "growth", "springs", "schedule", "contact", "solver"}},
+        {validate_flow, {"flow", "box", "rods", "motion", "forces", "mobility", "growth", "schedule", "output"}},
         {check_schedule, {"schedule", "box", "walls", "growth"}},
         {check_springs, {"springs", "growth"}},
         {check_fixed_rods, {"rods", "contact", "mobility", "schedule"}},
         {check_forces, {"forces", "walls"}},
         {check_solver, {"contact", "solver", "fluid"}},
-        {check_time, {"time", "motion", "fluid", "growth", "springs", "schedule", "forces"}},
+        {check_time, {"time", "motion", "fluid", "growth", "springs", "schedule", "forces", "flow"}},
         {check_growth, {"growth", "rods", "mobility"}},
         {check_contact_range, {"contact", "rods", "growth"}}};
     return checks;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <unordered_map>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "jostle/rods/space_filling_order.hpp"
 #include "jostle/run_files/checkpoint.hpp"
 #include "jostle/run_files/trajectory_journal.hpp"
+#include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene_file/same_scene.hpp"
 
@@ -86,6 +88,20 @@ bool swims_alike(const Scene& scene, const Scene& there) {
            scene.motion.self_propulsion_deviation == there.motion.self_propulsion_deviation;
 }
 
+/// Rods across the face of a sheared box would be thrown onto others in one that is sheared otherwise.
+void require_sheared_alike(const Scene& scene, const Box& there) {
+    const double edge = there.edges().x;
+    const double strain = has_flow(scene) ? scene.flow.start_strain : 0.0;
+    if (std::fabs(std::remainder(strain * there.edges().y - there.offset(), edge)) <= 1e-6 * edge) return;
+    throw InputError(
+        {.key = "flow.start_strain",
+         .value = fmt::format("{}", strain),
+         .problem = "is not the strain of the box that the rods come from, " + scene.rods.run,
+         .allowed = fmt::format("{}, or whole edges along x over edges along y more",
+                                (there.offset() < 0.0 ? there.offset() + edge : there.offset()) / there.edges().y),
+         .suggestion = "Set it under [flow]"});
+}
+
 /// Springs for rods whose images count from 0, by their new ids.
 std::vector<Spring> renumbered(std::vector<Spring> springs, const Rods& rods) {
     std::unordered_map<std::uint64_t, std::size_t> place;
@@ -120,6 +136,7 @@ RodsOfRun rods_of_run(const Scene& scene, const std::filesystem::path& scene_pat
     Rods rods =
         in_order_of_ids(scene.rods.frame ? rods_of_frame(frame_of(scene, folder), last.state.rods) : last.state.rods);
     if (rods.size() == 0) refuse_run(scene, "has no rods left", "Give an earlier frame");
+    require_sheared_alike(scene, scene.rods.frame ? frame_of(scene, folder).box : last.state.box);
     RodsOfRun found;
     found.springs = renumbered(std::move(last.state.springs), rods);
     found.turned_round = there.motion.reversal_rate > 0.0;

@@ -11,6 +11,7 @@
 #include "jostle/run_files/checkpoint.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_box.hpp"
+#include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/scene_walls.hpp"
 #include "jostle/scene/step_limits.hpp"
@@ -102,6 +103,7 @@ void require_fit(const Scene& scene, const Rods& rods, const std::string& giver)
     require_diameter(scene, giver, *thinnest, *thickest);
     validate_box(scene, total_volume(rods), *thickest);
     validate_walls(scene, total_volume(rods), *std::max_element(rods.length.begin(), rods.length.end()), *thickest);
+    validate_sheared_box(scene, total_volume(rods), longest_of(rods));
     validate_growth(scene, *thickest);
     validate_contact_range(scene, longest_of(rods));
     require_near(rods, box_of(scene, rods), giver);
@@ -154,7 +156,7 @@ std::optional<Rods> rods_from_file(const Scene& scene, const std::filesystem::pa
 
 Box box_of(const Scene& scene, const std::optional<Rods>& rods) {
     const double volume = rods ? total_volume(*rods) : rods_volume(scene);
-    return {box_edges(scene, volume), scene.box.periodic, scene_walls(scene)};
+    return sheared_at_start(scene, {box_edges(scene, volume), scene.box.periodic, scene_walls(scene)});
 }
 
 std::shared_ptr<const Rods> fixed_rods(const Scene& scene, const std::filesystem::path& scene_path) {

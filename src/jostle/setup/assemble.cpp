@@ -6,6 +6,7 @@
 #include "jostle/mobility/drag.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_box.hpp"
+#include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/schedule.hpp"
 #include "jostle/scene/step_limits.hpp"
@@ -103,6 +104,7 @@ Simulation assemble(const Scene& scene, State state) {
     settings.lcp.step_rule = scene.solver.step_rule == StepRule::bb1   ? BarzilaiBorwein::bb1
                              : scene.solver.step_rule == StepRule::bb2 ? BarzilaiBorwein::bb2
                                                                        : BarzilaiBorwein::alternating;
+    if (has_flow(scene)) settings.flow = flow_of(scene);
     if (scene.growth.rate > 0.0) settings.growth = scene.growth;
     return Simulation(std::move(state), std::move(model), motions_of(scene), settings);
 }

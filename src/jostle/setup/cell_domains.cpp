@@ -6,7 +6,9 @@ CellDomains::CellDomains(const CellGrid& grid, const Box& box, const std::array<
     : grid_(grid), box_(box) {
     for (std::size_t k = 0; k < 3; ++k) {
         const int cells = grid.cells_along(k), reach = grid.reach_along(k);
-        const int count = box.periodic()[k] && cells >= 2 * reach ? cells / reach / 2 * 2 : 1;
+        // Across y, the slabs along x of a sheared box meet others than those beside them.
+        const bool apart = box.periodic()[k] && (box.offset() == 0.0 || k == 2);
+        const int count = apart && cells >= 2 * reach ? cells / reach / 2 * 2 : 1;
         const int begin = count > 1 ? static_cast<int>(shift[k] % static_cast<std::uint64_t>(cells)) : 0;
         Slabs& slabs = slabs_[k];
         for (std::int64_t slab = 0; slab <= count; ++slab)

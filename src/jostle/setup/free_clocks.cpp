@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_motion.hpp"
 
 namespace jostle {
@@ -13,6 +14,10 @@ FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, con
     const bool turn = std::any_of(rods.length.begin(), rods.length.end(), [](double length) { return length > 0.0; });
     const double persistence = turn ? persistence_time(scene, mobility, rods.size()) : 0.0;
     if (std::isfinite(persistence)) clocks.rotation = persistence;
+    if (oscillates(scene))
+        clocks.flow = 1.0 / scene.flow.frequency;
+    else if (flows(scene))
+        clocks.flow = 1.0 / std::fabs(scene.flow.shear_rate);
     const double kT = thermal_energy(scene);
     for (std::size_t i = 0; kT > 0.0 && i < rods.size(); ++i) {
         const RodMobility rod = mobility.of_rod(i);

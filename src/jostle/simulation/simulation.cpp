@@ -1,6 +1,7 @@
 #include "jostle/simulation/simulation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "jostle/error/input_error.hpp"
@@ -8,6 +9,25 @@
 #include "jostle/rods/space_filling_order.hpp"
 
 namespace jostle {
+
+namespace {
+
+/// Refuses a box that is not sheared as the flow has it at the time of the clock: rods would be thrown onto others.
+void require_sheared(const State& state, const std::optional<ShearFlow>& flow) {
+    if (!flow) return;
+    const Box& box = state.box;
+    const double strain = flow->strain_at(state.clock.time), edge = box.edges().x;
+    const double off = std::remainder(strain * box.edges().y - box.offset(), edge);
+    if (box.periodic()[0] && box.periodic()[1] && std::fabs(off) <= 1e-6 * edge) return;
+    throw InputError({.key = "box",
+                      .value = std::to_string(box.offset()),
+                      .problem = "is not sheared as the flow has it: the strain is " + std::to_string(strain),
+                      .allowed = "a box that is periodic along x and y, its copies above along y displaced by the "
+                                 "strain times its edge along y",
+                      .suggestion = "Give box.sheared(strain * edges.y)"});
+}
+
+}  // namespace
 
 Simulation::Simulation(State state, std::unique_ptr<Mobility> mobility, std::vector<std::unique_ptr<Motion>> motions,
                        const SimulationSettings& settings)
@@ -21,6 +41,7 @@ Simulation::Simulation(State state, std::unique_ptr<Mobility> mobility, std::vec
                           .value = std::to_string(settings_.time_step),
                           .problem = "the time step must be positive"});
     require_sound_springs(state_.springs);
+    require_sheared(state_, settings_.flow);
     if (!settings_.growth) return;
     if (!state_.springs.empty())
         throw InputError({.key = "springs.file",
@@ -31,7 +52,8 @@ Simulation::Simulation(State state, std::unique_ptr<Mobility> mobility, std::vec
 }
 
 bool Simulation::keeps_equilibrium() const {
-    return settings_.kT > 0.0 && !settings_.growth &&
+    const bool flows = settings_.flow && (settings_.flow->rate != 0.0 || settings_.flow->amplitude != 0.0);
+    return settings_.kT > 0.0 && !settings_.growth && !flows &&
            std::all_of(motions_.begin(), motions_.end(),
                        [](const auto& motion) { return motion->keeps_equilibrium(); });
 }

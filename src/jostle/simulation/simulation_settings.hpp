@@ -6,6 +6,7 @@
 #include "jostle/contact_problem/solver_method.hpp"
 #include "jostle/growth/growth_law.hpp"
 #include "jostle/lcp/lcp_problem.hpp"
+#include "jostle/motion/shear_flow.hpp"
 #include "jostle/simulation/conditions.hpp"
 
 namespace jostle {
@@ -24,6 +25,7 @@ struct SimulationSettings {
     bool relinearise = false;         ///< no pair in contact may overlap for being turned far in one step
     bool stress_conventions = false;  ///< other conventions of the stress are measured, too
     bool collision_moments = false;   ///< the parts of the collision stress are kept, contact by contact
+    std::optional<ShearFlow> flow;    ///< that the rods go with; steps shear a box that is periodic along x and y
     std::optional<GrowthLaw> growth;
     Schedule schedule = {};
 

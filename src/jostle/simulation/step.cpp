@@ -14,6 +14,7 @@
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/simulation/forces_at_touching.hpp"
 #include "jostle/simulation/provisional_change.hpp"
+#include "jostle/simulation/shearing.hpp"
 #include "jostle/simulation/simulation.hpp"
 #include "jostle/simulation/step_stress.hpp"
 
@@ -54,6 +55,7 @@ StepReport Simulation::step() {
     renumber();
     Squeezing squeezing(state_, follow_schedule(), search_);
     report.stretch = squeezing.stretch();
+    Shearing shearing(state_, settings_.flow, settings_.time_step, search_);
     Lengthening lengthening(growth_, state_.rods, settings_.time_step);
     const auto mobility = mobility_->at(state_.rods, state_.box);
     if (growth_ || std::exchange(sizes_changed_, false)) find_size_bounds(state_.rods, *mobility, settings_, sizes_);
@@ -84,6 +86,7 @@ StepReport Simulation::step() {
     timer.finish(StepPhase::measure_stress);
 
     squeezing.keep();
+    shearing.keep();
     lengthening.keep();
     advance();  // 5
     timer.finish(StepPhase::advance);

@@ -34,11 +34,12 @@ void measure_collision_stress(const ResolvedStep& step, const SimulationSettings
         torque[k] = cross(axis[step.solution.rods[k]], step.solution.forces[k].moment);
     });
     const RodTorques torques = {step.solution.rods, torque};
-    report.collision_virial = sum_of_pair_stresses(step.contacts, gamma, rods, axis, torques, distance);
+    const Mat3 centre_of_mass = centre_of_mass_virial(step.contacts, gamma, rods, axis, distance);
+    report.collision_virial = centre_of_mass + geometric_stress(rods, axis, torques);
+    if (settings.stress_conventions || settings.flow) report.centre_of_mass_virial = centre_of_mass;
     if (settings.collision_moments)
         moments = collision_moments(step.contacts, gamma, rods, step.state.box, axis, torques, distance);
     if (!settings.stress_conventions) return;
-    report.centre_of_mass_virial = centre_of_mass_virial(step.contacts, gamma, rods, axis, distance);
     report.centre_line_virial = centre_line_virial(step.contacts, gamma, rods, distance);
 }
 

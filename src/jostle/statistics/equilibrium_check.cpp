@@ -68,6 +68,9 @@ std::string too_short(const ProductionSeries& series, const FreeClocks& clocks, 
             return fmt::format("covers {:.2g} independent values of the nematic order; at least {} are needed", orders,
                                least_orders);
     }
+    if (clocks.flow > 0.0) check.flow_times = window / clocks.flow;
+    if (clocks.flow > 0.0 && check.flow_times < least_flow_times)
+        return covers(check.flow_times, "unit of strain, or period,", least_flow_times);
     if (clocks.diffusion > 0.0 && check.diffusion_times < least_diffusion_times)
         return covers(check.diffusion_times, "diffusion time", least_diffusion_times);
     return "";

@@ -10,6 +10,7 @@ namespace jostle {
 struct FreeClocks {
     double rotation = 0.0;   ///< 1/(2 D_R): <n(0).n(t)> has fallen to 1/e
     double diffusion = 0.0;  ///< D^2/D_t
+    double flow = 0.0;       ///< one unit of strain; of a flow to and fro a period
 };
 
 /// Rotation times that a window has to cover. The order tensor of free rods decays three times as fast as their axes:
@@ -17,6 +18,9 @@ struct FreeClocks {
 inline constexpr double least_rotation_times = 4.0;
 /// Diffusion times that it has to cover.
 inline constexpr double least_diffusion_times = 2.0;
+
+/// Units of strain, or periods, that it has to cover.
+inline constexpr double least_flow_times = 2.0;
 
 /// A column that may not drift in equilibrium.
 struct WatchedColumn {
@@ -40,15 +44,16 @@ struct EquilibriumCheck {
     double rotation_time = 0.0;    ///< the longer of that of a free rod and three times the decay of the order tensor
     double rotation_times = 0.0;   ///< in the window; 0 where nothing turns
     double diffusion_times = 0.0;  ///< likewise
+    double flow_times = 0.0;       ///< likewise, of the flow
 };
 
 /// Judges the window by clocks and by drifts.
 ///
-/// Too short to tell: fewer than 4 rotation times or 2 diffusion times, or fewer than 8 independent values of the
-/// order. A rotation time is the longer of that of a free rod, which no series can shorten, and of what the series
-/// shows: the order tensor of free rods decays with 1/(6 D_R), so crowding makes it three times the correlation time of
-/// the tensor. (Of a nematic, mean S above 0.4, the director may turn for ever, and moves nothing else:
-/// there the order alone is asked.) Drifting: a watched column, or the order, has a significant `drift`.
+/// Too short to tell: fewer than 4 rotation times, 2 diffusion times or 2 units of strain, or fewer than 8 independent
+/// values of the order. A rotation time is the longer of that of a free rod, which no series can shorten, and of what
+/// the series shows: the order tensor of free rods decays with 1/(6 D_R), so crowding makes it three times the
+/// correlation time of the tensor. (Of a nematic, mean S above 0.4, the director may turn for ever, and moves nothing
+/// else: there the order alone is asked.) Drifting: a watched column, or the order, has a significant `drift`.
 EquilibriumCheck check_equilibrium(const ProductionSeries& series, const FreeClocks& clocks);
 
 /// "0.13 of a rotation time", "5.2 rotation times".

@@ -61,6 +61,13 @@ TEST_CASE("no pair within range is missed, in any box, while rods move: against 
         {"slit", {{15, 15, 4}, {true, true, false}}, 60, 5.0},
         {"spheres", {{10, 10, 10}, {true, true, true}}, 200, 0.0},
         {"long", {{25, 25, 25}, {true, true, true}}, 60, 20.0},
+        {"sheared", Box({30, 30, 30}).sheared(4.0), 150, 5.0},
+        {"sheared back", Box({20, 15, 30}).sheared(-7.3), 100, 5.0},
+        {"sheared by half an edge", Box({10, 10, 10}).sheared(5.0), 200, 0.0},
+        {"sheared, thinner than two rods", Box({9, 8, 11}).sheared(2.9), 40, 5.0},
+        {"sheared, thinner than one rod", Box({20, 3, 2.5}).sheared(9.1), 20, 5.0},
+        {"sheared, as thin as a diameter", Box({1.0, 1.0, 12}).sheared(0.4), 8, 5.0},
+        {"sheared, planes across z", Box({15, 15, 4}, {true, true, false}).sheared(1e-9), 60, 5.0},
     };
     for (const Case& test : cases) {
         CAPTURE(test.name);
@@ -91,6 +98,45 @@ TEST_CASE("no pair within range is missed, in any box, while rods move: against 
             walk(rods, test.box, 0.02, engine);
         }
         CHECK(built < 8);  // the list is reused, or the test would not test its skin
+    }
+}
+
+TEST_CASE("pairs within reach are known while the box is sheared from step to step, through many of its edges") {
+    std::mt19937_64 engine(17);
+    for (const double length : {0.0, 5.0}) {
+        const double strain = 2e-3;
+        Box box = Box({14, 13, 12}).sheared(-6.9);
+        Rods rods = thrown(80, box, length, 1.0, engine);
+        const std::vector<double> reach(rods.size(), 0.05);
+        NeighbourList kept(0.4);
+        int built = 0, jumps = 0;
+        for (int step = 0; step < 1200; ++step) {
+            built += kept.update(rods, box, reach) ? 1 : 0;
+            if (step % 7 == 0) {
+                NeighbourList anew(0.1);
+                anew.update(rods, box, reach);
+                Contacts from_kept, from_new;
+                find_contacts(rods, box, kept, reach, from_kept);
+                find_contacts(rods, box, anew, reach, from_new);
+                REQUIRE(keys(from_kept) == keys(from_new));
+            }
+            const double further = box.offset() + strain * box.edges().y;
+            box = box.sheared(further);
+            const bool jumps_now = box.offset() != further;
+            jumps += jumps_now ? 1 : 0;
+            if (jumps_now)
+                kept.invalidate();
+            else
+                kept.shear(strain);
+            for (std::size_t i = 0; i < rods.size(); ++i) {
+                rods.centre[i].x += strain * rods.centre[i].y;
+                if (jumps_now) rods.image[i] = {0, 0, 0};
+                box.wrap(rods.centre[i], rods.image[i]);
+            }
+            walk(rods, box, 0.004, engine);
+        }
+        CHECK(jumps == 2);
+        CHECK(built < 300);  // the list is reused
     }
 }
 

@@ -22,6 +22,36 @@ TEST_CASE("wrapping puts a centre into the box and counts the edges crossed") {
     CHECK(unwrapped.x == doctest::Approx(-0.5 + 10.0));
 }
 
+TEST_CASE("a centre that leaves a sheared box across y comes back displaced along x") {
+    const Box box = Box({10, 5, 2}).sheared(3.0);
+    //      +----------+
+    //   +--|-------+ o|   a copy above lies 3 to the right: o is at (9, 5.5),
+    //   |  +----- /|--+   and its copy in the box at (6, 0.5)
+    Vec3 centre{9.0, 5.5, 1.0};
+    Image image{0, 0, 0};
+    box.wrap(centre, image);
+    CHECK(centre.x == doctest::Approx(6.0));
+    CHECK(centre.y == doctest::Approx(0.5));
+    CHECK(image == Image{0, 1, 0});
+
+    const Vec3 out{-1.0, -5.5, 3.0};  // across all faces
+    centre = out;
+    image = {0, 0, 0};
+    box.wrap(centre, image);
+    CHECK(centre == Vec3{5.0, 4.5, 1.0});
+    CHECK(image == Image{0, -2, 1});
+    CHECK(centre + box.displacement(image) == out);
+}
+
+TEST_CASE("a sheared box is told by an offset of at most half an edge") {
+    const Box box({10, 5, 2});
+    CHECK(box.sheared(4.0).offset() == 4.0);
+    CHECK(box.sheared(16.0).offset() == -4.0);
+    CHECK(box.sheared(-26.0).offset() == 4.0);
+    CHECK(std::fabs(box.sheared(5.0 + 1e-12).offset()) <= 5.0);
+    CHECK(box.sheared(20.0).offset() == 0.0);
+}
+
 TEST_CASE("a centre a hair below the lower face stays inside") {
     const Box box{{10, 10, 10}, {true, true, true}};
     for (const double x : {-1e-18, -1e-300, -0.0, 10.0, std::nextafter(10.0, 0.0), std::nextafter(0.0, -1.0)}) {

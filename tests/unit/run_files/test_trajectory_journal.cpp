@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "jostle/disk/checksum.hpp"
 #include "jostle/disk/durable_file.hpp"
 #include "jostle/error/input_error.hpp"
@@ -38,6 +40,23 @@ int frames_of(const std::string& path) {
 }
 
 }  // namespace
+
+TEST_CASE("the offset of a sheared box comes back, in single precision and never beyond half an edge") {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("trajectory.journal");
+    TrajectoryJournal journal = TrajectoryJournal::create(path);
+    const std::vector<double> offsets = {1.1, -2.3, 0.0, 2.65, std::nextafter(-2.65, 0.0)};
+    for (std::size_t k = 0; k < offsets.size(); ++k)
+        journal.append(k + 1, 0.1, Box({5.3, 5, 6}).sheared(offsets[k]), some_rods(1, 1));
+    journal.sync();
+    TrajectoryReader reader(path);
+    TrajectoryFrame frame;
+    for (const double offset : offsets) {
+        REQUIRE(reader.next(frame));
+        CHECK(frame.box.offset() == doctest::Approx(offset).epsilon(1e-6));
+        CHECK(frame.box.is_periodic());
+    }
+}
 
 TEST_CASE("frames come back, with a number of rods that changes") {
     const TemporaryFolder folder;

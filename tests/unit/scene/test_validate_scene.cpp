@@ -80,7 +80,7 @@ TEST_CASE("no quantity may be nan, infinite or out of bounds, whichever key it i
     std::string key;
     int quantities = 0;
     while (set_quantity(counted, quantities, 1.0, key)) ++quantities;
-    CHECK(quantities == 41);
+    CHECK(quantities == 45);
     for (int index = 0; index < quantities; ++index)
         for (const double value : {not_a_number, infinity, -infinity, 1e300, -1e300}) {
             std::string changed, message;
@@ -167,6 +167,11 @@ TEST_CASE("keys beside keys") {
     CHECK(refused_key([](Scene& s) { s.forces.on_rods = {0, 0, -1}; }) == "forces.on_rods");
     CHECK(refused_key([](Scene& s) { s.forces.on_rods = {0, 0, -1}, s.forces.drift = true; }) == "");
     CHECK(refused_key([](Scene& s) { s.forces.drift = true; }) == "forces.drift");
+    CHECK(refused_key([](Scene& s) { s.flow.shear_rate = 1.0, s.flow.strain_amplitude = 0.1; }) ==
+          "flow.strain_amplitude");
+    CHECK(refused_key([](Scene& s) { s.flow.strain_amplitude = 0.1; }) == "flow.frequency");
+    CHECK(refused_key([](Scene& s) { s.flow.frequency = 0.1; }) == "flow.frequency");
+    CHECK(refused_key([](Scene& s) { s.flow.shear_rate = 1e-3, s.box.periodic[1] = false; }) == "box.periodic");
     CHECK(refused_key([](Scene& s) { s.forces.alignment_energy = 1.0; }) == "");
     CHECK(refused_key([](Scene& s) { s.forces.alignment_axis = {1, 0, 0}; }) == "forces.alignment_axis");
     CHECK(refused_key([](Scene& s) {
