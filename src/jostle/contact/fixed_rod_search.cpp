@@ -10,7 +10,7 @@ namespace jostle {
 
 namespace {
 
-constexpr std::size_t block_size = 256;  ///< rods looked at together
+constexpr std::size_t rods_per_block = 256;  ///< rods looked at together
 
 /// The contacts of a pair, their gaps not shifted.
 void append_points(const FixedCopy& copy, std::uint32_t row, const PairGeometry& pair, const NearestPoints& nearest,
@@ -49,13 +49,13 @@ double FixedRodSearch::find(const StepGeometry& step, Contacts& contacts) {
             step.displacement[i] + std::max(step.shift.part[i] + step.ranges.activation_margin, step.ranges.range);
     });
     grid_.fit(step.box, reach_from_centre(step.rods, *step.box.fixed_rods(), reach_));
-    blocks_.resize((count + block_size - 1) / block_size);
+    blocks_.resize((count + rods_per_block - 1) / rods_per_block);
     parallel_for_parts(blocks_.size(), [&](std::size_t block) {
         Found& found = blocks_[block];
         found.contacts.clear();
         found.overlap = 0.0;
-        const std::size_t end = std::min(count, (block + 1) * block_size);
-        for (std::size_t row = block * block_size; row < end; ++row)
+        const std::size_t end = std::min(count, (block + 1) * rods_per_block);
+        for (std::size_t row = block * rods_per_block; row < end; ++row)
             look_at(static_cast<std::uint32_t>(row), step, found);
     });
     const std::size_t first = contacts.size();
@@ -117,10 +117,10 @@ Contacts FixedRodSearch::violated(const StepGeometry& step, const EndConfigurati
     const double farthest =
         parallel_max(count, 0.0, [&](std::size_t k) { return static_cast<double>(end.displacement[k].farthest); });
     grid_.fit(step.box, reach_from_centre(step.rods, *step.box.fixed_rods(), reach_) + farthest);
-    std::vector<Contacts> found((count + block_size - 1) / block_size);
+    std::vector<Contacts> found((count + rods_per_block - 1) / rods_per_block);
     parallel_for_parts(found.size(), [&](std::size_t block) {
-        const std::size_t last = std::min(count, (block + 1) * block_size);
-        for (std::size_t k = block * block_size; k < last; ++k)
+        const std::size_t last = std::min(count, (block + 1) * rods_per_block);
+        for (std::size_t k = block * rods_per_block; k < last; ++k)
             look_again_at(end.rows[k], end.displacement[k].farthest, step, end, found[block]);
     });
     for (const Contacts& part : found) all.append(part);

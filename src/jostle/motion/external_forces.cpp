@@ -15,7 +15,7 @@ namespace {
 /// In D a step, as of swimmers: the force at the surface that stops a rod is right to 1 %.
 constexpr double advised_way = 0.04, farthest_way = 0.5;
 /// Of a small angle, that the torque takes away in a step: thermal angles are too wide by half of it.
-constexpr double automatic_turn = 0.05, advised_turn = 0.1, largest_turn = 1.0;
+constexpr double automatic_turn = 0.05, advised_alignment_turn = 0.1, largest_turn = 1.0;
 
 void require_finite(const char* key, const Vec3& vector) {
     for (const double part : {vector.x, vector.y, vector.z})
@@ -84,7 +84,7 @@ std::vector<StepLimit> AligningTorque::step_limits(const Rods& rods, const Mobil
              .remedy = "a weaker torque",
              .rate = fastest,
              .automatic = automatic_turn,
-             .advised = advised_turn,
+             .advised = advised_alignment_turn,
              .largest = largest_turn}};
 }
 

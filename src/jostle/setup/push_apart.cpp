@@ -14,7 +14,7 @@ namespace {
 // All lengths in diameters of the thinnest rod.
 constexpr double opened_each_round = 0.1;
 constexpr double free_space = 1e-3;
-constexpr double range = 0.1;
+constexpr double search_range = 0.1;
 constexpr double largest_move = 0.2;  ///< of any point of a rod in a round
 constexpr double apart_tolerance = 1e-4;
 constexpr int max_rounds = 2000;
@@ -50,7 +50,7 @@ PushApartResult push_apart(Rods& rods, const Box& box, const Mobility& mobility)
     PushApartResult result;
     const double thinnest = rods.size() == 0 ? 1.0 : *std::min_element(rods.diameter.begin(), rods.diameter.end());
     NeighbourList neighbours(0.5 * thinnest);
-    const std::vector<double> ranges(rods.size(), range * thinnest);
+    const std::vector<double> ranges(rods.size(), search_range * thinnest);
     Contacts contacts;
     for (;; ++result.rounds) {
         neighbours.update(rods, box, ranges);
