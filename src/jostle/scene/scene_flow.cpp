@@ -92,7 +92,7 @@ void validate_flow(const Scene& scene) {
                fmt::format("[true, true, {}]", periodic[2]),
                "Put planes across z alone (walls.faces); they have no friction, so no wall could drive a flow");
     check_motion_in_flow(scene, key, value);
-    const auto refuse_output = [&](const char* output, const std::string& given, const char* problem) {
+    const auto refuse_output = [&, key = key](const char* output, const std::string& given, const char* problem) {
         refuse(output, given, fmt::format("{}, and {} shears it", problem, key), "", "Remove it, or [flow]");
     };
     if (scene.output.field_every > 0)
