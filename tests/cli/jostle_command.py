@@ -149,6 +149,15 @@ def rows_of(path):
     return max(0, path.read_bytes().count(b"\n") - 1) if path.exists() else 0
 
 
+def stop_and_kill(folder, *stops):
+    """Runs folder/scene.toml, once for each of (rows, signal): when the series has more rows, the run gets the signal."""
+    for rows, number in stops:
+        process = start(folder)
+        wait_until(lambda rows=rows: rows_of(folder / "run/series.csv") > rows, process)
+        assert kill(process, number)[0] == (-number if number == signal.SIGKILL else STOPPED)
+        assert command(folder, "verify", "run").returncode == DONE
+
+
 @functools.lru_cache(maxsize=8)
 def header_and_rows(text):
     """Of a CSV file: its header and its rows, read once."""
@@ -258,6 +267,12 @@ def require_one_line(result, *parts):
     assert lines[0].startswith("jostle: ")
     for part in parts:
         assert part in lines[0], f"{part!r} is not in: {result.stderr}"
+
+
+def require_refused(folder, scene, *parts):
+    """`jostle check` refuses the scene in one line that holds all parts."""
+    write_scene(folder, scene)
+    require_one_line(command(folder, "check", "scene.toml"), *parts)
 
 
 def random_numbers():

@@ -5,8 +5,8 @@ import signal
 
 import pytest
 
-from jostle_command import (DONE, RODS, STOPPED, changed, column, command, finish, kill, require_one_line,
-                            require_same_results, rows_of, run, snapshot, start, wait_until, with_steps, write_scene)
+from jostle_command import (DONE, RODS, changed, column, command, finish, require_one_line, require_same_results, run,
+                            snapshot, stop_and_kill, with_steps, write_scene)
 
 HEADER = "x,y,z,nx,ny,nz,length,diameter"
 FIXED = [HEADER, "1,1,1,0,0,1,4,1.5", "4,4,4,1,0,0,0,2", "9,1,4,1,1,0,3,1"]
@@ -40,11 +40,7 @@ def test_stopped_and_resumed(tmp_path):
     whole = finish(tmp_path / "whole")
     folder = tmp_path / "parts"
     write_fixed(folder, FIXED, scene)
-    for rows, number, status in ((60, signal.SIGTERM, STOPPED), (400, signal.SIGKILL, -signal.SIGKILL)):
-        process = start(folder)
-        wait_until(lambda rows=rows: rows_of(folder / "run/series.csv") > rows, process)
-        assert kill(process, number)[0] == status
-        assert command(folder, "verify", "run").returncode == DONE
+    stop_and_kill(folder, (60, signal.SIGTERM), (400, signal.SIGKILL))
     require_same_results(finish(folder, threads=2), whole, same_command=False)
 
 

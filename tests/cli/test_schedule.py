@@ -9,8 +9,8 @@ import h5py
 import numpy as np
 import pytest
 
-from jostle_command import (DONE, RODS, TIME_STEP, Verbatim, changed, column, command, finish, require_one_line, require_same_results, with_steps,
-                            write_scene)
+from jostle_command import (DONE, RODS, TIME_STEP, Verbatim, changed, column, command, finish, require_one_line,
+                            require_refused, require_same_results, with_steps, write_scene)
 
 ROOT = Path(__file__).resolve().parents[2]
 END = 60 * TIME_STEP
@@ -111,8 +111,7 @@ REFUSED = [
 @pytest.mark.parametrize("entry", REFUSED, ids=lambda entry: str(entry[0]))
 def test_what_is_refused(tmp_path, entry):
     schedule, *parts = entry
-    write_scene(tmp_path, changed(RODS, schedule={key: Verbatim(value) for key, value in schedule.items()}))
-    require_one_line(command(tmp_path, "check", "scene.toml"), *parts)
+    require_refused(tmp_path, changed(RODS, schedule={key: Verbatim(value) for key, value in schedule.items()}), *parts)
     require_one_line(command(tmp_path, "run", "scene.toml"), *parts)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["scene.toml"]
 

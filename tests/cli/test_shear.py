@@ -6,7 +6,8 @@ import h5py
 import numpy as np
 import pytest
 
-from jostle_command import BAD_INPUT, DONE, RODS, changed, command, finish, require_one_line, require_same_results, with_steps, write_scene
+from jostle_command import (BAD_INPUT, DONE, RODS, changed, command, finish, require_one_line, require_refused,
+                            require_same_results, with_steps, write_scene)
 
 # Copies slide by more than a whole edge: a jump of the offset is among the steps.
 SHEARED = changed(RODS, box={"volume_fraction": None, "edges": [7.0, 7.0, 5.0]}, flow={"shear_rate": 0.75}, output={"contacts": None})
@@ -41,11 +42,7 @@ REFUSED = [
 
 @pytest.mark.parametrize("scene, key, words", REFUSED, ids=[f"{key}-{k}" for k, (_, key, _) in enumerate(REFUSED)])
 def test_flows_that_do_not_go_together_with_the_scene_are_refused_in_one_line(tmp_path, scene, key, words):
-    write_scene(tmp_path, scene)
-    result = command(tmp_path, "check", "scene.toml")
-    assert result.returncode == BAD_INPUT
-    require_one_line(result, key)
-    assert words in result.stderr
+    require_refused(tmp_path, scene, key, words)
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -6,9 +6,8 @@ import signal
 import numpy as np
 import pytest
 
-from jostle_command import (DONE, RODS, STOPPED, changed, column, command, finish, kill, place_of, require_one_line,
-                            require_same_results, rows_of, run, scene_text, snapshot, start, wait_until, with_steps,
-                            write_scene)
+from jostle_command import (DONE, RODS, changed, column, command, finish, place_of, require_one_line, require_refused,
+                            require_same_results, run, scene_text, snapshot, stop_and_kill, with_steps, write_scene)
 from test_dividing_population import CELLS
 from test_scenes import complete, SERIES
 
@@ -54,12 +53,7 @@ def test_stopped_killed_and_resumed(tmp_path, motion):
     whole = finish(tmp_path / "whole")
     folder = tmp_path / "parts"
     write_springs(folder, SPRINGS, scene)
-    for rows, number, status in ((60, signal.SIGTERM, STOPPED), (300, signal.SIGKILL, -signal.SIGKILL),
-                                 (530, signal.SIGKILL, -signal.SIGKILL)):
-        process = start(folder)
-        wait_until(lambda rows=rows: rows_of(folder / "run/series.csv") > rows, process)
-        assert kill(process, number)[0] == status
-        assert command(folder, "verify", "run").returncode == DONE
+    stop_and_kill(folder, (60, signal.SIGTERM), (300, signal.SIGKILL), (530, signal.SIGKILL))
     require_same_results(finish(folder, threads=2), whole, same_command=False)
 
 
@@ -141,5 +135,4 @@ def test_no_springs_between_cells_that_divide(tmp_path):
 
 def test_a_table_without_a_file(tmp_path):
     scene = changed(RODS, springs={"file": ""})
-    write_scene(tmp_path, scene)
-    require_one_line(command(tmp_path, "check", "scene.toml"), "springs.file", "names no file")
+    require_refused(tmp_path, scene, "springs.file", "names no file")

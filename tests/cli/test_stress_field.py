@@ -6,9 +6,8 @@ import signal
 import numpy as np
 import pytest
 
-from jostle_command import (BAD_INPUT, DONE, RODS, STOPPED, changed, column, command, finish, flip_bit, kill, place_of,
-                            require_one_line, require_same_results, rows_of, run, scene_text, start, wait_until,
-                            with_steps, write_scene)
+from jostle_command import (BAD_INPUT, RODS, changed, column, command, finish, flip_bit, place_of, require_one_line,
+                            require_same_results, run, scene_text, stop_and_kill, with_steps, write_scene)
 from test_dividing_population import CELLS
 
 NAMES = [f"stress_{a}{b}" for a in "xyz" for b in "xyz"]
@@ -79,12 +78,7 @@ def test_stopped_killed_and_resumed(tmp_path):
     whole = finish(tmp_path / "whole")
     folder = tmp_path / "parts"
     write_scene(folder, scene)
-    for rows, number, status in ((30, signal.SIGTERM, STOPPED), (120, signal.SIGKILL, -signal.SIGKILL),
-                                 (240, signal.SIGKILL, -signal.SIGKILL)):
-        process = start(folder)
-        wait_until(lambda rows=rows: rows_of(folder / "run/series.csv") > rows, process)
-        assert kill(process, number)[0] == status
-        assert command(folder, "verify", "run").returncode == DONE
+    stop_and_kill(folder, (30, signal.SIGTERM), (120, signal.SIGKILL), (240, signal.SIGKILL))
     require_same_results(finish(folder, threads=2), whole, same_command=False)
 
 

@@ -5,8 +5,8 @@ import signal
 import h5py
 import numpy as np
 
-from jostle_command import (RODS, STOPPED, changed, column, command, finish, kill, place_of, require_one_line,
-                            require_same_results, rows_of, scene_text, start, wait_until, with_steps, write_scene)
+from jostle_command import (RODS, changed, column, command, finish, place_of, require_refused, require_same_results,
+                            scene_text, stop_and_kill, with_steps, write_scene)
 from read_h5md import read as read_h5md
 from test_dividing_population import CELLS
 
@@ -82,10 +82,7 @@ def test_stopped_killed_and_resumed(tmp_path):
     whole = finish(tmp_path / "whole")
     folder = tmp_path / "parts"
     write_scene(folder, scene)
-    for rows, number, status in ((30, signal.SIGTERM, STOPPED), (120, signal.SIGKILL, -signal.SIGKILL)):
-        process = start(folder)
-        wait_until(lambda rows=rows: rows_of(folder / "run/series.csv") > rows, process)
-        assert kill(process, number)[0] == status
+    stop_and_kill(folder, (30, signal.SIGTERM), (120, signal.SIGKILL))
     require_same_results(finish(folder, threads=2), whole, same_command=False)
 
 
@@ -115,7 +112,6 @@ def test_cells_that_divide_and_die(tmp_path):
 
 def test_without_frames_it_is_refused(tmp_path):
     scene = changed(WITH_STRESS, output={"trajectory_every": 0})
-    write_scene(tmp_path, scene)
     at = place_of(scene_text(scene), "output", "stress_per_rod")
-    require_one_line(command(tmp_path, "check", "scene.toml"), f"scene.toml:{at}: output.stress_per_rod = true",
+    require_refused(tmp_path, scene, f"scene.toml:{at}: output.stress_per_rod = true",
                      "is not used with output.trajectory_every = 0", "Set trajectory_every")

@@ -6,7 +6,8 @@ import h5py
 import numpy as np
 import pytest
 
-from jostle_command import BAD_INPUT, DONE, RODS, changed, command, finish, require_one_line, require_same_results, run, with_steps, write_scene
+from jostle_command import (RODS, changed, command, finish, require_one_line, require_refused, require_same_results,
+                            with_steps, write_scene)
 
 SLIT = changed(RODS, box={"volume_fraction": None, "edges": [7.0, 7.0, 9.0], "periodic": [True, True, False]},
                walls={"faces": [False, False, True]})
@@ -40,17 +41,12 @@ REFUSED = [
 
 @pytest.mark.parametrize("scene, key, words", REFUSED, ids=[f"{key}-{k}" for k, (_, key, _) in enumerate(REFUSED)])
 def test_walls_that_do_not_go_together_with_the_scene_are_refused_in_one_line(tmp_path, scene, key, words):
-    write_scene(tmp_path, scene)
-    result = command(tmp_path, "check", "scene.toml")
-    assert result.returncode == BAD_INPUT
-    require_one_line(result, key)
-    assert words in result.stderr
+    require_refused(tmp_path, scene, key, words)
 
 
 def test_cells_that_would_grow_longer_than_a_cavity_are_refused(tmp_path):
     cells = changed(CELLS, box={"edges": [6.0, 6.0, 6.0]}, walls={"container": "sphere", "axis": None}, growth={"division_length": 5.5})
-    write_scene(tmp_path, cells)
-    require_one_line(command(tmp_path, "check", "scene.toml"), "growth.division_length")
+    require_refused(tmp_path, cells, "growth.division_length")
 
 
 def test_a_rod_of_a_file_beyond_a_wall_is_named(tmp_path):

@@ -9,22 +9,12 @@
 #include "jostle/setup/assemble.hpp"
 #include "jostle/setup/start.hpp"
 #include "jostle/stress/orientation_stress.hpp"
+#include "support/sample.hpp"
 
 using namespace jostle;
+using test::Sample;
 
 namespace {
-
-struct Sample {
-    double mean = 0.0, error = 0.0;
-    explicit Sample(const std::vector<double>& values) {
-        const auto count = static_cast<double>(values.size());
-        for (const double value : values) mean += value / count;
-        double squares = 0.0;
-        for (const double value : values) squares += (value - mean) * (value - mean);
-        error = std::sqrt(squares / (count * (count - 1.0)));
-    }
-    bool agrees_with(double exact) const { return std::fabs(mean - exact) < 4.0 * error; }
-};
 
 /// Integral of f from a to b, by Simpson's rule.
 template <class Function>

@@ -8,15 +8,16 @@
 #include <vector>
 
 #include "jostle/math/shear_rotation.hpp"
-#include "jostle/scene/scene_box.hpp"
-#include "jostle/setup/assemble.hpp"
-#include "jostle/setup/start.hpp"
 #include "jostle/simulation/flow_stress.hpp"
 #include "jostle/statistics/time_series.hpp"
 #include "jostle/stress/orientation_stress.hpp"
 #include "jostle/stress/spherocylinder_moments.hpp"
+#include "support/sample.hpp"
+#include "support/simulations.hpp"
 
 using namespace jostle;
+using test::Sample;
+using test::started;
 
 namespace {
 
@@ -29,27 +30,9 @@ Scene sheared(std::uint64_t count, double length, double volume_fraction) {
     return scene;
 }
 
-Simulation started(const Scene& scene) {
-    const Box box{box_edges(scene), scene.box.periodic};
-    return assemble(scene, {box, make_start(scene, box)});
-}
-
 double rotational_mobility(const Simulation& simulation) {
     return simulation.mobility().at(simulation.rods(), simulation.box())->of_rod(0).rotational;
 }
-
-/// Mean and standard error of independent numbers.
-struct Sample {
-    double mean = 0.0, error = 0.0;
-    explicit Sample(const std::vector<double>& values) {
-        const auto count = static_cast<double>(values.size());
-        for (const double value : values) mean += value / count;
-        double squares = 0.0;
-        for (const double value : values) squares += (value - mean) * (value - mean);
-        error = std::sqrt(squares / (count * (count - 1.0)));
-    }
-    bool agrees_with(double exact) const { return std::fabs(mean - exact) < 4.0 * error; }
-};
 
 /// Smoluchowski's equation of free rods L/D = 5, solved by spherical harmonics up to l = 44 (theory, section 8).
 struct DiluteState {

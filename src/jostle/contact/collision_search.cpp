@@ -195,14 +195,7 @@ double CollisionSearch::append(const PairKey& key, const PairGeometry& before, c
         return shift;
     }
     append_contacts(key, before, nearest, distance, interaction_range_[key.i] + interaction_range_[key.j], contacts);
-    double largest = 0.0;
-    for (std::size_t l = first; l < contacts.size(); ++l) {
-        Contact& contact = contacts.contact[l];
-        const double shift = step.shift.exact(contact);
-        contact.shifted_gap = gap_of_contact(contact, contacts.feature[l], after) - shift;
-        largest = std::max(largest, shift);
-    }
-    return largest;
+    return set_shifted_gaps(step.shift, after, first, contacts);
 }
 
 /// Inactive pairs are no contacts until they are activated; once the list is another one, any pair may be one.

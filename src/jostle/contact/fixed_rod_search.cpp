@@ -10,8 +10,6 @@ namespace jostle {
 
 namespace {
 
-constexpr std::size_t rods_per_block = 256;  ///< rods looked at together
-
 /// The contacts of a pair, their gaps not shifted.
 void append_points(const FixedCopy& copy, std::uint32_t row, const PairGeometry& pair, const NearestPoints& nearest,
                    double range, Contacts& contacts) {
@@ -49,24 +47,15 @@ double FixedRodSearch::find(const StepGeometry& step, Contacts& contacts) {
             step.displacement[i] + std::max(step.shift.part[i] + step.ranges.activation_margin, step.ranges.range);
     });
     grid_.fit(step.box, reach_from_centre(step.rods, *step.box.fixed_rods(), reach_));
-    blocks_.resize((count + rods_per_block - 1) / rods_per_block);
-    parallel_for_parts(blocks_.size(), [&](std::size_t block) {
-        Found& found = blocks_[block];
-        found.contacts.clear();
-        found.overlap = 0.0;
-        const std::size_t end = std::min(count, (block + 1) * rods_per_block);
-        for (std::size_t row = block * rods_per_block; row < end; ++row)
-            look_at(static_cast<std::uint32_t>(row), step, found);
-    });
     const std::size_t first = contacts.size();
-    contacts.append(blocks_.size(), [&](std::size_t block) -> const Contacts& { return blocks_[block].contacts; });
+    const double overlap = append_found(count, blocks_, contacts, [&](std::size_t row, FoundContacts& found) {
+        look_at(static_cast<std::uint32_t>(row), step, found);
+    });
     remember(contacts, first);
-    double overlap = 0.0;
-    for (const Found& found : blocks_) overlap = std::max(overlap, found.overlap);
     return overlap;
 }
 
-void FixedRodSearch::look_at(std::uint32_t row, const StepGeometry& step, Found& found) const {
+void FixedRodSearch::look_at(std::uint32_t row, const StepGeometry& step, FoundContacts& found) const {
     const Rods& rods = step.rods;
     for (const FixedCopy& copy : grid_.near(rods.centre[row])) {
         const PairGeometry before = grid_.pair(copy, rods, row, rods.centre[row], rods.axis[row]);
@@ -94,14 +83,7 @@ double FixedRodSearch::append(const FixedCopy& copy, std::uint32_t row, const Pa
                               Contacts& contacts) const {
     const std::size_t first = contacts.size();
     append_points(copy, row, before, nearest, reach_[row], contacts);
-    double largest = 0.0;
-    for (std::size_t l = first; l < contacts.size(); ++l) {
-        Contact& contact = contacts.contact[l];
-        const double shift = step.shift.exact(contact);
-        contact.shifted_gap = gap_of_contact(contact, contacts.feature[l], after) - shift;
-        largest = std::max(largest, shift);
-    }
-    return largest;
+    return set_shifted_gaps(step.shift, after, first, contacts);
 }
 
 void FixedRodSearch::remember(const Contacts& contacts, std::size_t first) {
@@ -117,13 +99,9 @@ Contacts FixedRodSearch::violated(const StepGeometry& step, const EndConfigurati
     const double farthest =
         parallel_max(count, 0.0, [&](std::size_t k) { return static_cast<double>(end.displacement[k].farthest); });
     grid_.fit(step.box, reach_from_centre(step.rods, *step.box.fixed_rods(), reach_) + farthest);
-    std::vector<Contacts> found((count + rods_per_block - 1) / rods_per_block);
-    parallel_for_parts(found.size(), [&](std::size_t block) {
-        const std::size_t last = std::min(count, (block + 1) * rods_per_block);
-        for (std::size_t k = block * rods_per_block; k < last; ++k)
-            look_again_at(end.rows[k], end.displacement[k].farthest, step, end, found[block]);
+    append_found(count, blocks_, all, [&](std::size_t k, FoundContacts& found) {
+        look_again_at(end.rows[k], end.displacement[k].farthest, step, end, found.contacts);
     });
-    for (const Contacts& part : found) all.append(part);
     remember(all, 0);
     return all;
 }
@@ -185,23 +163,11 @@ Contacts relinearised_fixed_rod_contacts(const Contacts& contacts, const Box& bo
         const FixedCopy copy = copy_of(known, contacts.image[l], box);
         const PairGeometry pair =
             pair_with(*box.fixed_rods(), copy, end.rods, known.j, end.centre(known.j), end.axis(known.j));
-        const NearestPoints nearest = nearest_points(pair);
-        const double distance = norm(nearest.separation);
-        if (!(distance > 0.0)) continue;  // the axes cross: no normal can be told
-        const double side = dot(nearest.separation, known.normal) < 0.0 ? -1.0 : 1.0;  // passed through?
-        if (!(side * distance - pair.radii < -max_overlap)) continue;
-        Contact contact;
-        contact.i = known.i;
-        contact.j = known.j;
-        contact.normal = (side / distance) * nearest.separation;
-        contact.arm_i = nearest.s_i;
-        contact.arm_j = nearest.s_j;
         const PairGeometry before =
             pair_with(*box.fixed_rods(), copy, end.rods, known.j, end.rods.centre[known.j], end.rods.axis[known.j]);
-        const Vec3 points = before.between + contact.arm_j * before.axis_j - contact.arm_i * before.axis_i;
-        contact.gap = dot(points, contact.normal) - pair.radii;
-        contact.shifted_gap = side * distance - pair.radii;
-        found.push_back(contact, contacts.image[l], ContactFeature::relinearised);
+        const auto contact = relinearised_contact(known, before, pair);
+        if (contact && contact->shifted_gap < -max_overlap)
+            found.push_back(*contact, contacts.image[l], ContactFeature::relinearised);
     }
     return found;
 }

@@ -5,6 +5,7 @@
 
 #include "jostle/contact/collision_search.hpp"
 #include "jostle/contact/fixed_rod_grid.hpp"
+#include "jostle/contact/found_contacts.hpp"
 
 namespace jostle {
 
@@ -21,17 +22,13 @@ public:
     Contacts violated(const StepGeometry& step, const EndConfiguration& end);
 
 private:
-    struct Found {
-        Contacts contacts;
-        double overlap = 0.0;
-    };
     struct Known {
         std::uint32_t row, number;
         Image image;
         auto operator<=>(const Known&) const = default;
     };
 
-    void look_at(std::uint32_t row, const StepGeometry& step, Found& found) const;
+    void look_at(std::uint32_t row, const StepGeometry& step, FoundContacts& found) const;
     void look_again_at(std::uint32_t row, double farthest, const StepGeometry& step, const EndConfiguration& end,
                        Contacts& found) const;
     double append(const FixedCopy& copy, std::uint32_t row, const PairGeometry& before, const NearestPoints& nearest,
@@ -41,7 +38,7 @@ private:
     FixedRodGrid grid_;
     std::vector<double> reach_;  ///< (N)
     std::vector<Known> known_;   ///< pairs that are contacts of this step, ascending
-    std::vector<Found> blocks_;
+    std::vector<FoundContacts> blocks_;
 };
 
 /// Appends the contacts of rods with the fixed rods of their box whose gap is below the rod's reach. `reach`: (N).

@@ -106,4 +106,33 @@ double gap_of_contact(const Contact& contact, ContactFeature feature, const Pair
     return distance - pair.radii;
 }
 
+double set_shifted_gaps(const GapShift& shift, const PairGeometry& after, std::size_t first, Contacts& contacts) {
+    double largest = 0.0;
+    for (std::size_t l = first; l < contacts.size(); ++l) {
+        Contact& contact = contacts.contact[l];
+        const double own = shift.exact(contact);
+        contact.shifted_gap = gap_of_contact(contact, contacts.feature[l], after) - own;
+        largest = std::max(largest, own);
+    }
+    return largest;
+}
+
+std::optional<Contact> relinearised_contact(const Contact& known, const PairGeometry& before,
+                                            const PairGeometry& at_end) {
+    const NearestPoints nearest = nearest_points(at_end);
+    const double distance = norm(nearest.separation);
+    if (!(distance > 0.0)) return std::nullopt;
+    const double side = dot(nearest.separation, known.normal) < 0.0 ? -1.0 : 1.0;  // passed through?
+    Contact contact;
+    contact.i = known.i;
+    contact.j = known.j;
+    contact.normal = (side / distance) * nearest.separation;
+    contact.arm_i = nearest.s_i;
+    contact.arm_j = nearest.s_j;
+    const Vec3 points = before.between + contact.arm_j * before.axis_j - contact.arm_i * before.axis_i;
+    contact.gap = dot(points, contact.normal) - at_end.radii;
+    contact.shifted_gap = side * distance - at_end.radii;
+    return contact;
+}
+
 }  // namespace jostle

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "jostle/contact/contacts.hpp"
+#include "jostle/contact/gap_shift.hpp"
 #include "jostle/contact/segment_distance.hpp"
 #include "jostle/rods/box.hpp"
 
@@ -68,5 +70,15 @@ void append_contacts(const PairKey& key, const PairGeometry& pair, const Nearest
 /// The gap at a contact when its rods lie as in `pair`: its points follow their feature, and rods that have passed
 /// through each other count as overlapping.
 double gap_of_contact(const Contact& contact, ContactFeature feature, const PairGeometry& pair);
+
+/// Sets the shifted gaps of the contacts from `first` on, all of one pair, which lies as in `after` after the known
+/// motion. Returns the largest of their shifts, at least 0.
+double set_shifted_gaps(const GapShift& shift, const PairGeometry& after, std::size_t first, Contacts& contacts);
+
+/// The contact of a pair that is in contact already, at the points that are nearest at the end of the step
+/// (relinearised_contacts.hpp). None if the axes cross there, where no normal can be told. `before`, `at_end`: the pair
+/// before the step and at its end.
+std::optional<Contact> relinearised_contact(const Contact& known, const PairGeometry& before,
+                                            const PairGeometry& at_end);
 
 }  // namespace jostle

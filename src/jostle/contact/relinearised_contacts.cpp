@@ -26,22 +26,10 @@ Contacts relinearised_contacts(const Contacts& contacts, const Box& box, const E
     Contacts found;
     for (const auto& [key, l] : first) {
         const PairGeometry pair = end.pair(box, key);
-        const NearestPoints nearest = nearest_points(pair);
-        const double distance = norm(nearest.separation);
-        if (!(distance > 0.0)) continue;  // the axes cross: no normal can be told
-        const double side = dot(nearest.separation, contacts.contact[l].normal) < 0.0 ? -1.0 : 1.0;  // passed through?
-        Contact contact;
-        contact.i = key.i;
-        contact.j = key.j;
-        contact.normal = (side / distance) * nearest.separation;
-        contact.arm_i = nearest.s_i;
-        contact.arm_j = nearest.s_j;
         const PairGeometry before =
             pair_geometry(end.rods, key.i, key.j, box.displacement(key.image), end.rods.centre, end.rods.axis);
-        const Vec3 points = before.between + contact.arm_j * before.axis_j - contact.arm_i * before.axis_i;
-        contact.gap = dot(points, contact.normal) - pair.radii;
-        contact.shifted_gap = side * distance - pair.radii;
-        found.push_back(contact, key.image, ContactFeature::relinearised);
+        if (const auto contact = relinearised_contact(contacts.contact[l], before, pair))
+            found.push_back(*contact, key.image, ContactFeature::relinearised);
     }
     return found;
 }

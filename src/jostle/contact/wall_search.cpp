@@ -3,13 +3,10 @@
 #include <algorithm>
 
 #include "jostle/contact/wall_contacts.hpp"
-#include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
 
 namespace {
-
-constexpr std::size_t block_size = 1024;  ///< rods looked at together
 
 void add(const Contact& contact, Contacts& contacts) {
     contacts.push_back(contact, {0, 0, 0}, ContactFeature::end_of_j);
@@ -26,22 +23,12 @@ double WallSearch::find(const StepGeometry& step, Contacts& contacts) {
     if (walls_.empty()) return 0.0;
     const std::size_t count = step.rods.size();
     known_.assign(count, 0);
-    blocks_.resize((count + block_size - 1) / block_size);
-    parallel_for_parts(blocks_.size(), [&](std::size_t block) {
-        Found& found = blocks_[block];
-        found.contacts.clear();
-        found.overlap = 0.0;
-        const std::size_t end = std::min(count, (block + 1) * block_size);
-        for (std::size_t row = block * block_size; row < end; ++row)
-            look_at(static_cast<std::uint32_t>(row), step, found);
+    return append_found(count, blocks_, contacts, [&](std::size_t row, FoundContacts& found) {
+        look_at(static_cast<std::uint32_t>(row), step, found);
     });
-    contacts.append(blocks_.size(), [&](std::size_t block) -> const Contacts& { return blocks_[block].contacts; });
-    double overlap = 0.0;
-    for (const Found& found : blocks_) overlap = std::max(overlap, found.overlap);
-    return overlap;
 }
 
-void WallSearch::look_at(std::uint32_t row, const StepGeometry& step, Found& found) {
+void WallSearch::look_at(std::uint32_t row, const StepGeometry& step, FoundContacts& found) {
     const Rods& rods = step.rods;
     const double range = std::max(step.shift.part[row] + step.ranges.activation_margin, step.ranges.range);
     for (const Wall& wall : walls_)
@@ -60,14 +47,9 @@ void WallSearch::look_at(std::uint32_t row, const StepGeometry& step, Found& fou
 Contacts WallSearch::violated(const StepGeometry& step, const EndConfiguration& end) {
     Contacts all;
     if (walls_.empty()) return all;
-    const std::size_t count = end.rows.size();
-    std::vector<Contacts> found((count + block_size - 1) / block_size);
-    parallel_for_parts(found.size(), [&](std::size_t block) {
-        const std::size_t last = std::min(count, (block + 1) * block_size);
-        for (std::size_t k = block * block_size; k < last; ++k)
-            look_again_at(end.rows[k], end.displacement[k].farthest, step, end, found[block]);
+    append_found(end.rows.size(), blocks_, all, [&](std::size_t k, FoundContacts& found) {
+        look_again_at(end.rows[k], end.displacement[k].farthest, step, end, found.contacts);
     });
-    for (const Contacts& part : found) all.append(part);
     return all;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "jostle/contact/collision_search.hpp"
+#include "jostle/contact/found_contacts.hpp"
 #include "jostle/rods/wall.hpp"
 
 namespace jostle {
@@ -22,12 +23,7 @@ public:
     Contacts violated(const StepGeometry& step, const EndConfiguration& end);
 
 private:
-    struct Found {
-        Contacts contacts;
-        double overlap = 0.0;
-    };
-
-    void look_at(std::uint32_t row, const StepGeometry& step, Found& found);
+    void look_at(std::uint32_t row, const StepGeometry& step, FoundContacts& found);
     void look_again_at(std::uint32_t row, double farthest, const StepGeometry& step, const EndConfiguration& end,
                        Contacts& found);
     bool is_contact(std::uint32_t row, const Wall& wall, double arm) const {
@@ -37,7 +33,7 @@ private:
 
     std::vector<Wall> walls_;
     std::vector<std::uint16_t> known_;  ///< (N) a bit for each end and wall that are a contact
-    std::vector<Found> blocks_;
+    std::vector<FoundContacts> blocks_;
 };
 
 }  // namespace jostle

@@ -121,33 +121,39 @@ Rods rods_in_rows(const Scene& scene, const Box& box) {
     return rods;
 }
 
-/// Refuses rods that reach beyond a wall by more than `allowed`.
-void require_inside(const Rods& rods, const Box& box, double allowed, const char* key, const std::string& name) {
-    const std::vector<Wall> walls = walls_of(box);
+/// Where rods of a start come from, as messages say it.
+struct Origin {
+    const char* key;
+    std::string name;
+};
+
+/// Refuses rods for which overlap_of(row) is above `allowed`; `does`: "reaches beyond a wall".
+template <class OverlapOf>
+void require_overlaps_below(double allowed, const Rods& rods, const Origin& origin, const char* does,
+                            OverlapOf&& overlap_of) {
     for (std::size_t i = 0; i < rods.size(); ++i)
-        if (const double beyond = overlap_with_walls(walls, box.walls(), rods, i); beyond > allowed)
-            throw InputError(
-                {.key = key,
-                 .value = "\"" + name + "\"",
-                 .problem = fmt::format(
-                     "rod {} (row {}) reaches beyond a wall by {:.3g}: its centre is ({:.6g}, {:.6g}, {:.6g})",
-                     rods.id[i], i + 1, beyond, rods.centre[i].x, rods.centre[i].y, rods.centre[i].z),
-                 .allowed = fmt::format("at most {:.3g}", allowed)});
+        if (const double overlap = overlap_of(i); overlap > allowed)
+            throw InputError({.key = origin.key,
+                              .value = "\"" + origin.name + "\"",
+                              .problem = fmt::format("rod {} (row {}) {} by {:.3g}: its centre is ({:.6g}, {:.6g}, "
+                                                     "{:.6g})",
+                                                     rods.id[i], i + 1, does, overlap, rods.centre[i].x,
+                                                     rods.centre[i].y, rods.centre[i].z),
+                              .allowed = fmt::format("at most {:.3g}", allowed)});
+}
+
+/// Refuses rods that reach beyond a wall by more than `allowed`.
+void require_inside(const Rods& rods, const Box& box, double allowed, const Origin& origin) {
+    const std::vector<Wall> walls = walls_of(box);
+    require_overlaps_below(allowed, rods, origin, "reaches beyond a wall",
+                           [&](std::size_t row) { return overlap_with_walls(walls, box.walls(), rods, row); });
 }
 
 /// Refuses rods that reach into fixed rods by more than `allowed`.
-void require_beside_fixed_rods(const Rods& rods, const Box& box, double allowed, const char* key,
-                               const std::string& name) {
+void require_beside_fixed_rods(const Rods& rods, const Box& box, double allowed, const Origin& origin) {
     const FixedRodGrid fixed = grid_of_fixed_rods(box, rods);
-    for (std::size_t i = 0; i < rods.size(); ++i)
-        if (const double overlap = overlap_with_fixed_rods(fixed, rods, i); overlap > allowed)
-            throw InputError(
-                {.key = key,
-                 .value = "\"" + name + "\"",
-                 .problem = fmt::format(
-                     "rod {} (row {}) overlaps a fixed rod by {:.3g}: its centre is ({:.6g}, {:.6g}, {:.6g})",
-                     rods.id[i], i + 1, overlap, rods.centre[i].x, rods.centre[i].y, rods.centre[i].z),
-                 .allowed = fmt::format("at most {:.3g}", allowed)});
+    require_overlaps_below(allowed, rods, origin, "overlaps a fixed rod",
+                           [&](std::size_t row) { return overlap_with_fixed_rods(fixed, rods, row); });
 }
 
 Rods checked(Rods rods, const Box& box, const Scene& scene) {
@@ -155,14 +161,14 @@ Rods checked(Rods rods, const Box& box, const Scene& scene) {
     rods.image.assign(rods.size(), Image{0, 0, 0});
     const bool of_run = scene.rods.start == StartKind::run;
     const double allowed = (of_run ? scene.contact.overlap_limit : file_overlap) * scene.rods.diameter;
-    require_inside(rods, box, allowed, of_run ? "rods.run" : "rods.file", of_run ? scene.rods.run : scene.rods.file);
-    require_beside_fixed_rods(rods, box, allowed, of_run ? "rods.run" : "rods.file",
-                              of_run ? scene.rods.run : scene.rods.file);
+    const Origin origin = of_run ? Origin{"rods.run", scene.rods.run} : Origin{"rods.file", scene.rods.file};
+    require_inside(rods, box, allowed, origin);
+    require_beside_fixed_rods(rods, box, allowed, origin);
     const double overlap = largest_overlap(rods, box);
     if (overlap > allowed)
         throw InputError(
-            {.key = of_run ? "rods.run" : "rods.file",
-             .value = "\"" + (of_run ? scene.rods.run : scene.rods.file) + "\"",
+            {.key = origin.key,
+             .value = "\"" + origin.name + "\"",
              .problem = fmt::format("{} overlap by up to {:.3g}{}", of_run ? "its rods" : "rods of this file", overlap,
                                     of_run ? " in the box of this scene" : ""),
              .allowed = fmt::format("overlaps up to {:.3g}", allowed),
@@ -194,7 +200,7 @@ Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& f
             return at_random(scattered_rods(scene, box, normalised(scene.rods.axis)), box, false, scene, watch);
         case StartKind::lattice: {
             Rods rods = rods_in_rows(scene, box);
-            require_beside_fixed_rods(rods, box, 0.0, "rods.start", "lattice");
+            require_beside_fixed_rods(rods, box, 0.0, {"rods.start", "lattice"});
             return rods;
         }
         case StartKind::file:

@@ -4,11 +4,10 @@
 #include <doctest/doctest.h>
 
 #include "jostle/measurement/measurement.hpp"
-#include "jostle/scene/scene_box.hpp"
-#include "jostle/setup/assemble.hpp"
-#include "jostle/setup/start.hpp"
+#include "support/simulations.hpp"
 
 using namespace jostle;
+using test::started;
 
 namespace {
 
@@ -27,11 +26,6 @@ Scene squeezed() {
     scene.output.field_every = 10;
     scene.output.field_spacing = 3.0;
     return scene;
-}
-
-Simulation started(const Scene& scene) {
-    const Box box{box_edges(scene), scene.box.periodic};
-    return assemble(scene, {box, make_start(scene, box)});
 }
 
 }  // namespace

@@ -2,11 +2,12 @@
 
 #include <doctest/doctest.h>
 
-#include "jostle/rods/space_filling_order.hpp"
 #include "jostle/setup/assemble.hpp"
 #include "jostle/setup/start.hpp"
+#include "support/simulations.hpp"
 
 using namespace jostle;
+using test::check_same_state;
 
 namespace {
 
@@ -34,16 +35,6 @@ Scene colony() {
     scene.growth.division_length = 5.0;
     scene.growth.division_every = 1;
     return scene;
-}
-
-void check_same_state(const Simulation& one, const Simulation& other) {
-    const Rods a = in_order_of_ids(one.rods()), b = in_order_of_ids(other.rods());
-    CHECK(one.clock().step == other.clock().step);
-    CHECK(a.id == b.id);
-    CHECK(a.centre == b.centre);
-    CHECK(a.axis == b.axis);
-    CHECK(a.length == b.length);
-    CHECK(a.image == b.image);
 }
 
 }  // namespace

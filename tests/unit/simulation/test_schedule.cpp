@@ -5,13 +5,14 @@
 #include <cmath>
 #include <vector>
 
-#include "jostle/rods/space_filling_order.hpp"
-#include "jostle/scene/scene_box.hpp"
 #include "jostle/setup/assemble.hpp"
-#include "jostle/setup/start.hpp"
 #include "support/assemblies.hpp"
+#include "support/simulations.hpp"
 
 using namespace jostle;
+using test::check_same_state;
+using test::places;
+using test::started;
 
 namespace {
 
@@ -37,28 +38,6 @@ Scene squeezed() {
     scene.schedule.kT = {{0.3, 2.0}, {0.5, 1.0}};
     scene.schedule.self_propulsion = {{0.1, 0.0}, {0.7, 5.0}};
     return scene;
-}
-
-Simulation started(const Scene& scene) {
-    const Box box{box_edges(scene), scene.box.periodic};
-    return assemble(scene, {box, make_start(scene, box)});
-}
-
-std::vector<Vec3> places(const Simulation& simulation) {
-    const Rods& rods = simulation.rods();
-    std::vector<Vec3> places(rods.size());
-    for (std::size_t i = 0; i < rods.size(); ++i)
-        places[rods.id[i]] = rods.centre[i] + simulation.box().displacement(rods.image[i]);
-    return places;
-}
-
-void check_same_state(const Simulation& a, const Simulation& b) {
-    const Rods first = in_order_of_ids(a.rods()), second = in_order_of_ids(b.rods());
-    CHECK(a.box().edges() == b.box().edges());
-    CHECK(first.centre == second.centre);
-    CHECK(first.axis == second.axis);
-    CHECK(first.image == second.image);
-    CHECK(a.clock().time == b.clock().time);
 }
 
 }  // namespace

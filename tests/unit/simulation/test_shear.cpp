@@ -9,26 +9,22 @@
 #include "jostle/error/input_error.hpp"
 #include "jostle/math/shear_rotation.hpp"
 #include "jostle/rods/space_filling_order.hpp"
-#include "jostle/scene/scene_box.hpp"
 #include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/setup/assemble.hpp"
 #include "jostle/setup/largest_overlap.hpp"
 #include "jostle/setup/start.hpp"
 #include "jostle/stress/spherocylinder_moments.hpp"
+#include "support/simulations.hpp"
 
 using namespace jostle;
+using test::box_at_start;
+using test::check_same_state;
+using test::make_steps;
+using test::places;
+using test::started;
 
 namespace {
-
-Box box_of(const Scene& scene) {
-    return sheared_at_start(scene, {box_edges(scene), scene.box.periodic});
-}
-
-Simulation started(const Scene& scene) {
-    const Box box = box_of(scene);
-    return assemble(scene, {box, make_start(scene, box)});
-}
 
 /// 60 rods at volume fraction 0.35, sheared fast: the copies slide by a whole edge every 200 steps.
 Scene crowd() {
@@ -40,27 +36,6 @@ Scene crowd() {
     scene.time.step = 0.002;
     scene.flow.shear_rate = 2.5;
     return scene;
-}
-
-std::vector<Vec3> places(const Simulation& simulation) {
-    const Rods& rods = simulation.rods();
-    std::vector<Vec3> places(rods.size());
-    for (std::size_t i = 0; i < rods.size(); ++i)
-        places[rods.id[i]] = rods.centre[i] + simulation.box().displacement(rods.image[i]);
-    return places;
-}
-
-void make_steps(Simulation& simulation, int steps) {
-    for (int step = 0; step < steps; ++step) REQUIRE(simulation.step().status == LcpStatus::converged);
-}
-
-void check_same_state(const Simulation& a, const Simulation& b) {
-    const Rods first = in_order_of_ids(a.rods()), second = in_order_of_ids(b.rods());
-    CHECK(a.box().offset() == b.box().offset());
-    CHECK(first.centre == second.centre);
-    CHECK(first.axis == second.axis);
-    CHECK(first.image == second.image);
-    CHECK(a.clock().time == b.clock().time);
 }
 
 }  // namespace
@@ -169,7 +144,7 @@ TEST_CASE("a rate of 0 leaves the bits of rods at rest") {
     Scene scene = crowd();
     scene.flow = {};
     Simulation at_rest = started(scene);
-    const Box box = box_of(scene);
+    const Box box = box_at_start(scene);
     SimulationSettings settings = at_rest.settings();
     settings.flow = ShearFlow{};
     Simulation not_sheared({box, make_start(scene, box)}, make_mobility(scene), motions_of(scene), settings);
