@@ -153,6 +153,12 @@ std::string summary_text(const Json& summary, const jostle::Scene& scene) {
         if (summary.contains(key) && !(walls && is_third_of_trace(key)))
             text += line(name, mean_text(summary[key], scene) + "  " + support_text(summary[key], withheld));
     if (summary.contains("flow")) text += text_of_flow(summary["flow"], scene, withheld);
+    if (summary.contains("pressure_control")) {
+        const Json& control = summary["pressure_control"];
+        for (const auto& [key, name] : {std::pair{"volume_fraction", "volume fraction"}, {"Z", "Z = P V/(N kT)"}})
+            text += line(name, mean_text(control[key], scene) + "  " + support_text(control[key], withheld));
+        if (control.value("limit_reached", false)) text += line("ended at", "pressure.limit_volume_fraction");
+    }
     for (const Checks& checks : all_checks) text += text_of_checks(checks, summary["checks"], scene, withheld);
     if (walls) text += line("principal stresses", principal_text(summary["principal_stresses"], scene) + "  (total)");
     text += line("principal stresses",

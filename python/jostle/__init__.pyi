@@ -45,6 +45,7 @@ class Scene:
     walls: _Table
     forces: _Table
     flow: _Table
+    pressure: _Table
     rods: _Table
     fluid: _Table
     mobility: _Table

@@ -44,6 +44,8 @@ Due Measurement::add(const StepReport& report, const Simulation& simulation) {
     sums_.add(report, simulation);
     if (simulation.rods().size() == 0) return {};
     const auto due = [step = simulation.clock().step](std::uint64_t every) { return every > 0 && step % every == 0; };
+    const std::optional<double>& limit = scene_.pressure.limit_volume_fraction;
+    if (limit && total_volume(simulation.rods()) >= *limit * simulation.box().volume()) is_complete_ = true;
     const Scene::Output& output = scene_.output;
     const Due now = {due(output.series_every), due(output.field_every), frame_steps_.is_due(simulation.clock().step),
                      due(output.checkpoint_every)};

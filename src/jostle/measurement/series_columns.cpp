@@ -148,6 +148,14 @@ void add_fixed_rod_columns(const Scene& scene, Series& series) {
                         });
 }
 
+void add_volume_columns(const Scene& scene, Series& series) {
+    series.columns.push_back({{"volume", unit_of(scene, dimension::volume), "V", "volume of the box at this step", ""},
+                              [](const RowState& row) { return row.volume; }});
+    series.add_elements(
+        edge_column_names, {"", unit_of(scene, dimension::length), "", "edge of the box at this step", ""},
+        [](const RowState& row, std::size_t k) { return row.simulation.box().edges()[static_cast<int>(k)]; });
+}
+
 void add_active_columns(const Scene& scene, Series& series) {
     const std::string stress = unit_of(scene, dimension::stress);
     const std::string sign =
@@ -212,6 +220,7 @@ TableColumns<RowState> series_columns(const Scene& scene) {
     if (scene_walls(scene).any()) add_wall_columns(scene, series);
     if (has_flow(scene)) add_flow_columns(scene, series);
     if (!scene.springs.file.empty()) add_spring_columns(scene, series);
+    if (scene.pressure.external) add_volume_columns(scene, series);
     if (!scene.rods.fixed.empty()) add_fixed_rod_columns(scene, series);
     if (has_torques(scene)) add_torque_columns(scene, series);
     if (scene_walls(scene).any() && scene.forces.on_rods != Vec3{}) add_force_columns(scene, series);

@@ -129,6 +129,40 @@ Json box_entry(const Scene& scene, const Box& box) {
             {"unit", unit_of(scene, dimension::length)}};
 }
 
+/// Of a box under pressure: mean volume fraction and volume, the edges, Z = P V/(N kT), and the compressibility
+/// var V/(kT V).
+Json volume_entry(const Scene& scene, const Simulation& simulation, const SeriesTable& series, std::size_t first) {
+    const double kT = simulation.settings().kT, rods = static_cast<double>(simulation.rods().size());
+    const std::vector<double> volume = from_row(series.column("volume"), first);
+    std::vector<double> factor = volume, squares = volume;
+    const double reference = column_mean(volume);
+    for (std::size_t row = 0; row < volume.size(); ++row) {
+        factor[row] = *scene.pressure.external * volume[row] / (rods * kT);
+        squares[row] = (volume[row] - reference) * (volume[row] - reference);
+    }
+    const Estimate compressibility = jackknife(Columns{volume, squares}, [&](std::span<const double> means) {
+        const double shift = means[0] - reference;
+        return (means[1] - shift * shift) / (kT * means[0]);
+    });
+    Json entry = {{"external", {{"value", *scene.pressure.external}, {"unit", unit_of(scene, dimension::stress)}}},
+                  {"volume_fraction", described(average(from_row(series.column("phi"), first)), "")},
+                  {"volume", described(average(volume), unit_of(scene, dimension::volume))},
+                  {"Z", described(average(factor), "")},
+                  {"compressibility", described(compressibility)}};
+    if (const auto& limit = scene.pressure.limit_volume_fraction)
+        entry["limit_reached"] = series.column("phi").back() >= *limit;
+    for (const char* name : edge_column_names)
+        entry[name] = described(average(from_row(series.column(name), first)), unit_of(scene, dimension::length));
+    return entry;
+}
+
+/// The measured pressure over that of the bath.
+Json bath_check(double external, const std::vector<double>& pressure) {
+    const Estimate measured =
+        jackknife(Columns{pressure}, [&](std::span<const double> means) { return means[0] / external; });
+    return check_of_one("pressure over that of the bath", measured);
+}
+
 /// How many there are, what they would fill if they did not overlap each other, and the mean force on all of them.
 Json fixed_rods_entry(const Rods& fixed, const Box& box, const Columns& force, const std::string& unit) {
     Json means = Json::array(), errors = Json::array();
@@ -198,8 +232,9 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
                                                   has_torques(scene) ? " + torques" : "");
     const bool ramped = is_ramped(scene, window);
     const double number = grows ? average_of("N").mean : static_cast<double>(rods.size());
-    const double kinetic = ramped ? kinetic_pressure(series, first, springs)
-                                  : number / simulation.box().volume() * simulation.settings().kT;
+    const double kinetic = ramped || scene.pressure.external
+                               ? kinetic_pressure(series, first, springs)
+                               : number / simulation.box().volume() * simulation.settings().kT;
     summary["stress_kinetic"] = {{"mean", kinetic}, {"unit", stress_unit}, {"definition", "n kT, on the diagonal"}};
     summary["stress_orientation"] = tensor_entry(orientation_stress_columns(series, first), stress_unit);
     summary["stress_collision"] = tensor_entry(collision, stress_unit);
@@ -208,6 +243,7 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
         summary["stress_springs"] =
             tensor_entry(window_columns(series, first, spring_stress_column_names), stress_unit);
     }
+    if (scene.pressure.external) summary["pressure_control"] = volume_entry(scene, simulation, series, first);
     if (simulation.box().fixed_rods())
         summary["fixed_rods"] = fixed_rods_entry(*simulation.box().fixed_rods(), simulation.box(),
                                                  window_columns(series, first, fixed_rod_force_column_names),
@@ -243,6 +279,9 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     const bool in_equilibrium = simulation.keeps_equilibrium() && !springs && !ramped && !simulation.box().fixed_rods();
     if (in_equilibrium && simulation.box().is_periodic())
         checks["total_stress_ratio"] = total_stress_ratio_check(stress, order);
+    if (in_equilibrium && scene.pressure.external)
+        checks["bath_pressure_ratio"] =
+            bath_check(*scene.pressure.external, from_row(series.column("pressure"), first));
     for (const WallGroup& group : wall_groups(walls))
         if (in_equilibrium)
             checks[group.column + "_ratio"] =

@@ -177,6 +177,7 @@ FieldWriter fields_of(const Checkpoint& checkpoint) {
     if (checkpoint.state.box.offset() != 0.0) writer.put("box.offset", checkpoint.state.box.offset());
     put_walls(writer, checkpoint.state.box.walls());
     put_fixed_rods(writer, checkpoint.state.box);
+    if (checkpoint.state.box_force) writer.put("box.force", *checkpoint.state.box_force);
     put_rods(writer, checkpoint.state.rods);
     put_springs(writer, checkpoint.state.springs);
     put_forces(writer, checkpoint.state.previous_forces);
@@ -198,6 +199,8 @@ Checkpoint from_fields(std::string_view payload) {
                                .with_fixed_rods(take_fixed_rods(reader));
     if (!reader.names_after("box.offset").empty())
         checkpoint.state.box = checkpoint.state.box.sheared(reader.take<double>("box.offset"));
+    if (const auto names = reader.names_after("box."); std::find(names.begin(), names.end(), "force") != names.end())
+        checkpoint.state.box_force = reader.take<Vec3>("box.force");
     checkpoint.state.rods = take_rods(reader);
     checkpoint.state.springs = take_springs(reader);
     checkpoint.state.previous_forces = take_forces(reader);

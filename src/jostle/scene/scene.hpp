@@ -119,9 +119,8 @@ struct Scene {
     struct PressureTable {
         std::optional<double> external;  // of the bath; without it the volume stays
         StrainCoupling coupling = StrainCoupling::isotropic;
-        std::optional<double> relaxation_time;   // "auto" (empty): in which a rod diffuses its length
-        std::optional<double> compression_rate;  // -d ln V/dt without thermal motion
-        std::optional<double> limit_volume_fraction;
+        std::optional<double> relaxation_time;        // "auto" (empty): in which a rod diffuses its length
+        std::optional<double> limit_volume_fraction;  // ends the run
         bool operator==(const PressureTable&) const = default;
     } pressure;
 

@@ -121,6 +121,11 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("schedule", "edges", scene.schedule.edges, Quantity{dim::length, positive});
     visit("schedule", "volume_fraction", scene.schedule.volume_fraction,
           Quantity{dim::none, {Range::smallest, 1.0, false}});
+    visit("pressure", "external", scene.pressure.external, Quantity{dim::stress, positive});
+    visit("pressure", "coupling", scene.pressure.coupling, Plain{});
+    visit("pressure", "relaxation_time", scene.pressure.relaxation_time, Quantity{dim::time, positive, true});
+    visit("pressure", "limit_volume_fraction", scene.pressure.limit_volume_fraction,
+          Quantity{.dimension = dim::none, .range = {Range::smallest, 1.0, false}, .may_change = true});
     visit("springs", "file", scene.springs.file, Plain{});
     visit("contact", "model", scene.contact.model, Plain{});
     visit("contact", "energy", scene.contact.energy, Quantity{dim::energy, positive, true});
@@ -210,6 +215,10 @@ constexpr auto words(Container) {
 constexpr auto words(Direction) {
     return std::to_array<std::pair<std::string_view, Direction>>(
         {{"x", Direction::x}, {"y", Direction::y}, {"z", Direction::z}});
+}
+constexpr auto words(StrainCoupling) {
+    return std::to_array<std::pair<std::string_view, StrainCoupling>>(
+        {{"isotropic", StrainCoupling::isotropic}, {"orthogonal", StrainCoupling::orthogonal}});
 }
 constexpr auto words(FrameTimes) {
     return std::to_array<std::pair<std::string_view, FrameTimes>>(

@@ -82,6 +82,10 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
                           "Set field_every, or remove it"});
     if (scene.time.rms_step && !scene.time.step)
         unused.push_back({"time.step", "is not used with time.rms_step", "Remove one of the two"});
+    if (!scene.pressure.external)
+        for (const char* key : {"pressure.coupling", "pressure.relaxation_time", "pressure.limit_volume_fraction"})
+            unused.push_back(
+                {key, "is not used without pressure.external: the volume stays", "Set external, or remove it"});
     if (scene.rods.fixed.empty())
         unused.push_back({"rods.fixed", "names no file", "Name a CSV file of rods that do not move, or remove fixed"});
     if (scene.springs.file.empty())

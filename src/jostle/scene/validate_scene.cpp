@@ -12,6 +12,7 @@
 #include "jostle/rods/rods.hpp"
 #include "jostle/scene/mistakes.hpp"
 #include "jostle/scene/number_text.hpp"
+#include "jostle/scene/pressure_control.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_box.hpp"
 #include "jostle/scene/scene_flow.hpp"
@@ -313,6 +314,9 @@ const std::vector<TogetherCheck>& together_checks() {
         {check_schedule, {"schedule", "box", "walls", "growth"}},
         {check_springs, {"springs", "growth"}},
         {check_fixed_rods, {"rods", "contact", "mobility", "schedule"}},
+        {validate_pressure,
+         {"pressure", "flow", "motion", "fluid", "walls", "box", "growth", "schedule", "rods", "mobility", "contact",
+          "springs"}},
         {check_forces, {"forces", "walls"}},
         {check_solver, {"contact", "solver", "fluid"}},
         {check_time, {"time", "motion", "fluid", "growth", "springs", "schedule", "forces", "flow"}},

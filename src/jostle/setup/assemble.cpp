@@ -4,6 +4,7 @@
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/mobility/drag.hpp"
+#include "jostle/scene/pressure_control.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_box.hpp"
 #include "jostle/scene/scene_flow.hpp"
@@ -82,6 +83,9 @@ Simulation assemble(const Scene& scene, State state) {
     settings.kT = present_kT(scene, state.clock, step);
     settings.time_step = step;
     settings.schedule = schedule_of(scene, rods, step);
+    if (scene.pressure.external)
+        settings.pressure = {*scene.pressure.external, scene.pressure.coupling == StrainCoupling::orthogonal,
+                             1.0 / (pressure_relaxation_time(scene) * static_cast<double>(rods.size()) * settings.kT)};
     settings.brownian_correction = scene.contact.brownian_correction;
     settings.range = scene.contact.range.value_or(0.0);
     if (scene.contact.model == ContactModel::wca) {

@@ -78,6 +78,13 @@ std::optional<Vec3> Simulation::follow_schedule() {
     return now.edges;
 }
 
+/// The edges of the box at the end of the step, if it changes.
+std::optional<Vec3> Simulation::edges_of_step() {
+    std::optional<Vec3> edges = follow_schedule();
+    if (settings_.pressure) edges = edges_under_pressure(state_, *settings_.pressure, settings_.kT, context());
+    return edges;
+}
+
 /// Now and then: rods near each other in space come near each other in memory.
 void Simulation::renumber() {
     constexpr std::uint64_t every = 512;

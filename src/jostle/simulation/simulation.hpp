@@ -66,6 +66,7 @@ public:
 
 private:
     std::optional<Vec3> follow_schedule();
+    std::optional<Vec3> edges_of_step();
     void renumber();
     void rows_change();
     ContactProblem posed_problem(const MobilityOperator& mobility, Contacts found) const;

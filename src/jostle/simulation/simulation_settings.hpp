@@ -7,6 +7,7 @@
 #include "jostle/growth/growth_law.hpp"
 #include "jostle/lcp/lcp_problem.hpp"
 #include "jostle/motion/shear_flow.hpp"
+#include "jostle/simulation/box_strain.hpp"
 #include "jostle/simulation/conditions.hpp"
 
 namespace jostle {
@@ -28,6 +29,7 @@ struct SimulationSettings {
     std::optional<ShearFlow> flow;    ///< that the rods go with; steps shear a box that is periodic along x and y
     std::optional<GrowthLaw> growth;
     Schedule schedule = {};
+    std::optional<PressureControl> pressure;  ///< without it the box stays, but for a schedule
 
     bool rods_are_soft() const { return wca_energy > 0.0; }
     /// Contacts are compliant, and gaps shifted.

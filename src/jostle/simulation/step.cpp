@@ -53,7 +53,7 @@ StepReport Simulation::step() {
     PhaseTimer timer(report);
     threads_.begin_step(state_.rods.size());
     renumber();
-    Squeezing squeezing(state_, follow_schedule(), search_);
+    Squeezing squeezing(state_, edges_of_step(), search_);
     report.stretch = squeezing.stretch();
     Shearing shearing(state_, settings_.flow, settings_.time_step, search_);
     Lengthening lengthening(growth_, state_.rods, settings_.time_step);
@@ -87,6 +87,11 @@ StepReport Simulation::step() {
 
     squeezing.keep();
     shearing.keep();
+    if (settings_.pressure) {
+        state_.box_force.emplace();
+        for (int k = 0; k < 3; ++k)
+            (*state_.box_force)[k] = report.centre_of_mass_virial(k, k) + trace(report.spring_virial) / 3.0;
+    }
     lengthening.keep();
     advance();  // 5
     timer.finish(StepPhase::advance);

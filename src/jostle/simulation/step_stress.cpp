@@ -39,6 +39,8 @@ void measure_collision_stress(const ResolvedStep& step, const SimulationSettings
     if (settings.stress_conventions || settings.flow) report.centre_of_mass_virial = centre_of_mass;
     if (settings.collision_moments)
         moments = collision_moments(step.contacts, gamma, rods, step.state.box, axis, torques, distance);
+    if (settings.stress_conventions || settings.pressure)
+        report.centre_of_mass_virial = centre_of_mass_virial(step.contacts, gamma, rods, axis, distance);
     if (!settings.stress_conventions) return;
     report.centre_line_virial = centre_line_virial(step.contacts, gamma, rods, distance);
 }

@@ -26,6 +26,8 @@ inline constexpr std::array<const char*, 9> spring_stress_column_names = {
 inline constexpr std::array<const char*, 9> torque_stress_column_names = {
     "stress_torques_xx", "stress_torques_xy", "stress_torques_xz", "stress_torques_yx", "stress_torques_yy",
     "stress_torques_yz", "stress_torques_zx", "stress_torques_zy", "stress_torques_zz"};
+/// Of the box, where a bath of pressure changes it.
+inline constexpr std::array<const char*, 3> edge_column_names = {"edge_x", "edge_y", "edge_z"};
 /// Of the contact forces on all fixed rods.
 inline constexpr std::array<const char*, 3> fixed_rod_force_column_names = {"fixed_rod_force_x", "fixed_rod_force_y",
                                                                             "fixed_rod_force_z"};

@@ -80,7 +80,7 @@ TEST_CASE("no quantity may be nan, infinite or out of bounds, whichever key it i
     std::string key;
     int quantities = 0;
     while (set_quantity(counted, quantities, 1.0, key)) ++quantities;
-    CHECK(quantities == 45);
+    CHECK(quantities == 48);
     for (int index = 0; index < quantities; ++index)
         for (const double value : {not_a_number, infinity, -infinity, 1e300, -1e300}) {
             std::string changed, message;
@@ -166,6 +166,28 @@ TEST_CASE("keys beside keys") {
           }) == "springs.file");
     CHECK(refused_key([](Scene& s) { s.forces.on_rods = {0, 0, -1}; }) == "forces.on_rods");
     CHECK(refused_key([](Scene& s) { s.forces.on_rods = {0, 0, -1}, s.forces.drift = true; }) == "");
+    CHECK(refused_key([](Scene& s) { s.pressure.external = 1.0; }) == "");
+    for (const auto& change : std::vector<std::function<void(Scene&)>>{
+             [](Scene& s) { s.fluid.kT = 0.0; }, [](Scene& s) { s.motion.self_propulsion = 0.1; },
+             [](Scene& s) {
+                 s.box.periodic = {true, true, false};
+             },
+             [](Scene& s) { s.rods.fixed = "fixed.csv"; },
+             [](Scene& s) { s.mobility.model = MobilityModel::hydrodynamic; },
+             [](Scene& s) { s.contact.model = ContactModel::wca; },
+             [](Scene& s) { s.contact.brownian_correction = false; },
+             [](Scene& s) {
+                 s.schedule.volume_fraction = {{1.0, 0.2}};
+             }})
+        CHECK(refused_key([&](Scene& s) {
+                  s.pressure.external = 1.0;
+                  change(s);
+              }) == "pressure.external");
+    CHECK(refused_key([](Scene& s) {
+              s.pressure.external = 1.0;
+              s.pressure.coupling = StrainCoupling::orthogonal;
+              s.springs.file = "springs.csv";
+          }) == "pressure.coupling");
     CHECK(refused_key([](Scene& s) { s.forces.drift = true; }) == "forces.drift");
     CHECK(refused_key([](Scene& s) { s.flow.shear_rate = 1.0, s.flow.strain_amplitude = 0.1; }) ==
           "flow.strain_amplitude");

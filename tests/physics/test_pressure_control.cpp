@@ -1,0 +1,116 @@
+// Boxes under the pressure of a bath (theory, section 10). Statistical checks allow four standard errors of their own
+// sample (false alarm 6e-5 each).
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/start.hpp"
+
+using namespace jostle;
+
+namespace {
+
+Scene scene_of(std::uint64_t count, double pressure, double rms_step) {
+    Scene scene;
+    scene.rods.count = count;
+    scene.rods.length = 0.0;
+    scene.time.rms_step = rms_step;
+    scene.pressure.external = pressure;
+    return scene;
+}
+
+/// Mean and error of the volume, its variance, and the mean collision pressure and density; of blocks.
+struct Volumes {
+    double mean = 0.0, error = 0.0, variance = 0.0, pressure = 0.0, pressure_error = 0.0;
+};
+
+Volumes measured(const Scene& scene, const Box& box, int settling, int blocks, int steps) {
+    Simulation simulation = assemble(scene, {box, make_start(scene, box)});
+    const auto count = static_cast<double>(simulation.rods().size());
+    for (int k = 0; k < settling; ++k) simulation.step();
+    std::vector<double> volume, pressure;
+    double squares = 0.0;
+    for (int block = 0; block < blocks; ++block) {
+        double sum = 0.0, virial = 0.0;
+        for (int k = 0; k < steps; ++k) {
+            const StepReport report = simulation.step();
+            REQUIRE(report.status == LcpStatus::converged);
+            const double V = simulation.box().volume();
+            sum += V / steps;
+            squares += V * V / (steps * static_cast<double>(blocks));
+            virial += (count + trace(report.collision_virial) / 3.0) / (V * steps);
+        }
+        volume.push_back(sum);
+        pressure.push_back(virial);
+    }
+    const auto mean_and_error = [&](const std::vector<double>& values) {
+        double mean = 0.0, deviation = 0.0;
+        for (const double value : values) mean += value / blocks;
+        for (const double value : values) deviation += (value - mean) * (value - mean);
+        return std::pair{mean, std::sqrt(deviation / (blocks * (blocks - 1.0)))};
+    };
+    const auto [mean, error] = mean_and_error(volume);
+    const auto [mean_pressure, pressure_error] = mean_and_error(pressure);
+    return {mean, error, squares - mean * mean, mean_pressure, pressure_error};
+}
+
+}  // namespace
+
+TEST_CASE("a dilute gas has the volume of (N + 1) kT/P, and its variance") {
+    // Spheres exclude half of 8 volumes each: <V> = (N + 1) kT/P + (N - 1) B_2 to first order.
+    const double pressure = 1e-3;
+    Scene scene = scene_of(8, pressure, 0.1);
+    scene.pressure.relaxation_time = 2.0;
+    const double edge = std::cbrt(9.0 / pressure);
+    const Volumes gas = measured(scene, Box{{edge, edge, edge}}, 2000, 60, 4000);
+    const double exact = 9.0 / pressure + 7.0 * 2.0 * std::numbers::pi / 3.0;
+    MESSAGE("<V> = " << gas.mean << " +- " << gas.error << ", exact " << exact << "; variance over exact "
+                     << gas.variance * pressure * pressure / 9.0);
+    CHECK(gas.error < 0.015 * exact);
+    CHECK(std::fabs(gas.mean - exact) < 4.0 * gas.error);
+    CHECK(gas.variance == doctest::Approx(9.0 / (pressure * pressure)).epsilon(0.15));
+}
+
+TEST_CASE("hard spheres at the pressure that Carnahan and Starling have at 0.3 fill 0.3, and press as the bath does") {
+    const double phi = 0.3, pi = std::numbers::pi;
+    const double Z = (1.0 + phi + phi * phi - phi * phi * phi) / std::pow(1.0 - phi, 3.0);
+    const double pressure = phi * 6.0 / pi * Z;
+    CHECK(pressure == doctest::Approx(2.2768).epsilon(1e-4));
+    Scene scene = scene_of(256, pressure, 0.05);
+    const double edge = std::cbrt(256.0 * pi / 6.0 / 0.25);  // begins at 0.25
+    const Volumes fluid = measured(scene, Box{{edge, edge, edge}}, 6000, 30, 1200);
+    const double filled = 256.0 * pi / 6.0 / fluid.mean;
+    MESSAGE("phi = " << filled << " +- " << filled * fluid.error / fluid.mean << "; pressure over that of the bath "
+                     << fluid.pressure / pressure << " +- " << fluid.pressure_error / pressure);
+    CHECK(fluid.error < 0.005 * fluid.mean);
+    CHECK(std::fabs(filled - phi) < 0.005 * phi + 2.0 * filled * fluid.error / fluid.mean);
+    CHECK(std::fabs(fluid.pressure - pressure) < 4.0 * fluid.pressure_error + 0.005 * pressure);
+    // n^2 kT d(1/n)/dP of Carnahan and Starling: kT compressibility n = (1 - phi)^4/(1 + 4 phi + 4 phi^2 - 4 phi^3 +
+    // phi^4)
+    const double n = phi * 6.0 / pi;
+    const double exact =
+        std::pow(1.0 - phi, 4.0) / (1.0 + 4.0 * phi + 4.0 * phi * phi - 4.0 * phi * phi * phi + std::pow(phi, 4.0));
+    MESSAGE("var V n/V = " << fluid.variance * n / fluid.mean << ", Carnahan and Starling " << exact);
+    CHECK(fluid.variance * n / fluid.mean == doctest::Approx(exact).epsilon(0.3));
+}
+
+TEST_CASE("the strain of one step: of all edges alike, or of each by its own force") {
+    State state;
+    state.box = Box{{2, 3, 4}};
+    state.rods.push_back(0, {1, 1, 1}, {1, 0, 0}, 0.0, 1.0);
+    const StepContext context = {1, 7, 0.01};
+    CHECK(edges_under_pressure(state, {0.5, false, 0.1}, 1.0, context) == Vec3{2, 3, 4});
+    state.box_force = Vec3{30, 60, 90};
+    const Vec3 alike = edges_under_pressure(state, {0.5, false, 0.1}, 0.0, context);
+    const double strain = 0.1 * 0.01 * (60.0 - 0.5 * 24.0);
+    for (int k = 0; k < 3; ++k) CHECK(alike[k] == doctest::Approx((2.0 + k) * std::exp(strain / 3.0)).epsilon(1e-14));
+    const Vec3 own = edges_under_pressure(state, {0.5, true, 0.1}, 0.0, context);
+    for (int k = 0; k < 3; ++k)
+        CHECK(own[k] == doctest::Approx((2.0 + k) * std::exp(0.001 * (30.0 * (k + 1) - 12.0))).epsilon(1e-14));
+    const Vec3 noisy = edges_under_pressure(state, {0.5, false, 0.1}, 1.0, context);
+    CHECK(noisy.x / 2.0 == doctest::Approx(noisy.y / 3.0).epsilon(1e-14));
+    CHECK(noisy != edges_under_pressure(state, {0.5, false, 0.1}, 1.0, {1, 8, 0.01}));
+}
