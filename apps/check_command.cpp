@@ -36,7 +36,8 @@ struct Population {
 };
 
 Population population_of(const Scene& scene, const std::optional<Rods>& from_file) {
-    if (from_file) return {*from_file, static_cast<double>(from_file->size()), total_volume(*from_file)};
+    if (from_file)
+        return {*from_file, static_cast<double>(from_file->size()), total_volume(*from_file, dimensions_of(scene))};
     return {representative_rods(scene), static_cast<double>(scene.rods.count), rods_volume(scene)};
 }
 
@@ -68,7 +69,8 @@ std::string with_unit(double value, const Scene& scene, Dimension dimension) {
 
 /// What numbers in the scene are in.
 std::string units_text(const Scene& scene) {
-    if (scene.units.system == UnitSystem::micro) return "um, s, pN (stress in pN/um2 = Pa)";
+    if (scene.units.system == UnitSystem::micro)
+        return dimensions_of(scene) == 2 ? "um, s, pN (stress in pN/um)" : "um, s, pN (stress in pN/um2 = Pa)";
     const auto unit = [&](Dimension dimension) { return readable_unit_of(scene, dimension); };
     std::string text = fmt::format("length {}, ", unit(dimension::length));
     if (scene.fluid.kT == 1.0) return text + fmt::format("energy kT, time {}", unit(dimension::time));
@@ -113,7 +115,7 @@ void print_motion(const Scene& scene, const MobilityOperator& mobility, const Ro
     const double rotation = kT * rod.rotational;
     if (kT > 0.0) {
         const ReadableUnit diffusion = readable_unit(scene, unit_of(scene, {2, -1, 0}));
-        const double fastest = fastest_diffusion(kT, mobility, rods.size());
+        const double fastest = fastest_diffusion(kT, mobility, rods.size(), dimensions_of(scene));
         print("D_parallel, D_perpendicular", fmt::format("{:.6g}, {}", kT * rod.parallel * diffusion.factor,
                                                          with_unit(kT * rod.perpendicular, scene, {2, -1, 0})));
         print("D_t of the fastest rod", with_unit(fastest, scene, {2, -1, 0}));
@@ -138,7 +140,9 @@ std::string value_text(double value, const Scene& scene, Dimension dimension) {
     return with_unit(value, scene, dimension);
 }
 std::string value_text(const Vec3& value, const Scene& scene, Dimension dimension) {
-    return fmt::format("{:.6g} x {:.6g} x {:.6g} {}", value.x, value.y, value.z, readable_unit_of(scene, dimension));
+    const std::string unit = readable_unit_of(scene, dimension);
+    if (dimensions_of(value) == 2) return fmt::format("{:.6g} x {:.6g} {}", value.x, value.y, unit);
+    return fmt::format("{:.6g} x {:.6g} x {:.6g} {}", value.x, value.y, value.z, unit);
 }
 
 template <class Value>
@@ -158,7 +162,7 @@ void print_schedule(const Scene& scene, const Box& box, double rods_volume) {
                dimension::speed);
     print_ramp("ramp of kT", scene.fluid.kT, scene.schedule.kT, scene, dimension::energy);
     print_ramp("ramp of box edges", box.edges(), ramp_of_edges(scene, rods_volume), scene, dimension::length);
-    print_ramp("ramp of phi", rods_volume / box.volume(), scene.schedule.volume_fraction, scene, dimension::none);
+    print_ramp("ramp of phi", rods_volume / box.volume(), ramp_of_fraction(scene), scene, dimension::none);
     const double end = schedule_end(scene), run = scene.time.equilibration.value_or(end) + scene.time.production;
     if (run < end)
         print("WARNING",
@@ -174,7 +178,7 @@ void print_clocks(const Scene& scene, const MobilityOperator& mobility, const Ro
     if (scene.growth.rate > 0.0 || (clocks.rotation == 0.0 && clocks.diffusion == 0.0)) return;
     const double production = scene.time.production;
     const double slowdown = rods_are_alike(scene) && !rods_are_given(scene)
-                                ? crowding_slowdown(phi, rods.length[0] / rods.diameter[0])
+                                ? crowding_slowdown(phi, rods.length[0] / rods.diameter[0], dimensions_of(scene))
                                 : 1.0;
     std::string covered, needed;
     if (clocks.rotation > 0.0) {
@@ -243,7 +247,8 @@ void print_cost(const Scene& scene, const Population& population, const Box& box
     const PopulationGrowth growth = population_growth(scene, steps * dt);
     const double count = population.count * growth.end, filled = phi * growth.end;
     const bool colony = scene.growth.rate > 0.0 && !box.is_periodic();  // as dense as cells lie, whatever the box
-    const double densest = colony ? crowded : std::max(phi, std::min(filled, crowded));
+    const double densest =
+        colony ? crowded(box.dimensions()) : std::max(phi, std::min(filled, crowded(box.dimensions())));
     if (scene.growth.rate > 0.0) {
         const bool too_many = !(count <= max_rods);
         print("N in the end, about",
@@ -251,7 +256,8 @@ void print_cost(const Scene& scene, const Population& population, const Box& box
         if (too_many) return;
         if (box.is_periodic())
             print("phi in the end, about",
-                  fmt::format("{:.3g}{}", filled, filled <= crowded ? "" : ": cells have no room to grow so many"));
+                  fmt::format("{:.3g}{}", filled,
+                              filled <= crowded(box.dimensions()) ? "" : ": cells have no room to grow so many"));
     }
     const double rows = steps / every;
     const FrameSteps frame_steps(scene, dt, population.count);
@@ -295,13 +301,12 @@ ExitCode check(const Scene& scene, const std::string& scene_path) {
     print("units", units_text(scene));
     print("N", fmt::format("{:.0f}", population.count));
     print("L/D", aspect_ratios(population.rods));
-    print("phi", fmt::format("{:.6g}", phi));
+    print(dimensions_of(scene) == 2 ? "phi (area fraction)" : "phi", fmt::format("{:.6g}", phi));
     if (const std::string warning = start_warning(scene, phi); !warning.empty()) print("WARNING", warning);
-    print("box", fmt::format("{:.6g} x {:.6g} x {:.6g} {}", box.edges().x, box.edges().y, box.edges().z,
-                             readable_unit_of(scene, dimension::length)));
+    print("box", value_text(box.edges(), scene, dimension::length));
     if (fixed)
-        print("fixed rods", fmt::format("{}, volume fraction {:.6g} but for their overlaps", fixed->size(),
-                                        total_volume(*fixed) / box.volume()));
+        print("fixed rods", fmt::format("{}, {} {:.6g} but for their overlaps", fixed->size(), fraction_words(scene),
+                                        total_volume(*fixed, dimensions_of(scene)) / box.volume()));
     print_schedule(scene, box, population.volume);
     print("time step", with_unit(dt, scene, dimension::time));
     for (const std::string& warning : warnings_of_step(limits, dt)) print("WARNING", warning);
@@ -310,7 +315,8 @@ ExitCode check(const Scene& scene, const std::string& scene_path) {
     print_limits(scene, population.rods, *mobility, springs, dt);
     if (field) {
         const auto& [x, y, z] = field->cells();
-        print("stress field", fmt::format("{} x {} x {} cells", x, y, z));
+        print("stress field", dimensions_of(scene) == 2 ? fmt::format("{} x {} cells", x, y)
+                                                        : fmt::format("{} x {} x {} cells", x, y, z));
     }
     const Ramp<Vec3> ramp_of_box = ramp_of_edges(scene, population.volume);
     const Box last = {ramp_of_box.empty() ? box.edges() : ramp_of_box.back().value, box.periodic()};

@@ -42,8 +42,8 @@ Json worst_contacts(const Simulation& simulation, Rank&& rank) {
 }  // namespace
 
 std::string advice(const StepReport& report, const Scene& scene, const Simulation& simulation) {
-    const double filled = total_volume(simulation.rods()) / simulation.box().volume();
-    if (scene.growth.rate > 0.0 && simulation.box().is_periodic() && filled > crowded)
+    const double filled = total_volume(simulation.rods(), simulation.box().dimensions()) / simulation.box().volume();
+    if (scene.growth.rate > 0.0 && simulation.box().is_periodic() && filled > crowded(dimensions_of(scene)))
         return fmt::format(
             "  cells fill {:.0f} % of the box: end the run earlier, or give them a larger box or a "
             "growth.stall_force\n",
@@ -57,7 +57,7 @@ std::string advice(const StepReport& report, const Scene& scene, const Simulatio
         case LcpStatus::iteration_limit:
             return "  try a smaller " + shorter + ", or a larger solver.max_iterations or tolerance\n";
         case LcpStatus::infeasible:
-            return "  use a lower volume fraction; this one cannot be reached with this start\n";
+            return fmt::format("  use a lower {}; this one cannot be reached with this start\n", fraction_words(scene));
         case LcpStatus::not_finite:
             return "  try a much smaller " + shorter + "\n";
         case LcpStatus::converged:
@@ -71,12 +71,14 @@ void write_post_mortem(const std::string& path, const Simulation& simulation, co
                        const std::string& failure) {
     const auto& contacts = simulation.contacts().contact;
     const auto& gamma = simulation.contact_solution().gamma;
+    const int dimensions = simulation.box().dimensions();
     const Json record = {
         {"failure", failure},
         {"step", report.step},
         {"time", report.time},
         {"time_step", simulation.settings().time_step},
-        {"volume_fraction", total_volume(simulation.rods()) / simulation.box().volume()},
+        {dimensions == 2 ? "area_fraction" : "volume_fraction",
+         total_volume(simulation.rods(), dimensions) / simulation.box().volume()},
         {"residual", report.residual},
         {"tolerance", simulation.settings().lcp.tolerance},
         {"iterations", report.iterations},

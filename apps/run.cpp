@@ -121,9 +121,10 @@ void Run::show_progress(const std::string& remark) {
     const auto last = [&](const char* column) {
         return series.rows() == 0 ? std::nan("") : series.column(column).back();
     };
-    progress_.show({simulation_.clock().step, simulation_.clock().time, total_volume(rods) / simulation_.box().volume(),
-                    last("Z"), measurement_.sums().run_max_overlap / smallest_diameter(scene_, rods),
-                    last("iterations"), last("contacts"), measurement_.fraction_done(), remark});
+    progress_.show({simulation_.clock().step, simulation_.clock().time,
+                    total_volume(rods, simulation_.box().dimensions()) / simulation_.box().volume(), last("Z"),
+                    measurement_.sums().run_max_overlap / smallest_diameter(scene_, rods), last("iterations"),
+                    last("contacts"), measurement_.fraction_done(), remark});
 }
 
 void Run::write_trajectory() const {

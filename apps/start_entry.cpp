@@ -45,8 +45,8 @@ Json start_entry(const Scene& scene, const Beginning& beginning) {
             entry["nematic_order"] = annealing.order;
         }
     }
-    if (const std::string warning =
-            start_warning(scene, total_volume(beginning.state.rods) / beginning.state.box.volume());
+    if (const std::string warning = start_warning(
+            scene, total_volume(beginning.state.rods, beginning.state.box.dimensions()) / beginning.state.box.volume());
         !warning.empty())
         entry["warning"] = warning;
     return entry;

@@ -60,7 +60,7 @@ std::string support_text(const Json& entry, bool withheld) {
 std::string principal_text(const Json& principal, const jostle::Scene& scene) {
     const auto [factor, unit] = unit_in(principal, scene);
     std::string text;
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < principal["mean"].size(); ++k) {
         text += fmt::format("{}{:.5g}", k > 0 ? ", " : "", factor * principal["mean"][k].get<double>());
         if (const Json& error = principal["standard_error"][k]; !error.is_null())
             text += fmt::format(" +- {:.2g}", factor * error.get<double>());

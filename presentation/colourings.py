@@ -114,7 +114,10 @@ def angles_to(axis, frame):
 
 
 def _order_tensor(frame):
-    return 1.5 * frame.axis.T @ frame.axis / max(len(frame), 1) - 0.5 * np.eye(3)
+    mean = frame.axis.T @ frame.axis / max(len(frame), 1)
+    if frame.dimensions == 2:
+        return 2.0 * mean - np.diag([1.0, 1.0, 0.0])
+    return 1.5 * mean - 0.5 * np.eye(3)
 
 
 def _joined(values):

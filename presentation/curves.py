@@ -71,7 +71,7 @@ def _lasting(run):
     if rods_have_axes:
         yield of_series(run, "nematic_order", "Nematic order", "S", from_zero=True)
     yield of_series(run, "N", "Number of rods", "rods", whole=True)
-    yield of_series(run, "phi", "Volume fraction", "volume fraction")
+    yield of_series(run, "phi", run.fraction.capitalize(), run.fraction)
     yield from _steps(run)
 
 
@@ -85,6 +85,6 @@ def _colony(run):
     pressure = of_series(run, "pressure_collision", "Pressure inside the colony", "pressure")
     with np.errstate(invalid="ignore"):
         pressure.values = pressure.values / run.series["phi"]
-    pressure.note = "collision stress of all cells, over their volume"
+    pressure.note = f"collision stress of all cells, over their {run.fraction.split()[0]}"
     yield pressure
     yield from _steps(run)

@@ -53,7 +53,7 @@ def subtitle(run):
     if run.is_colony:
         return f"{last['N']:.0f} cells from {run.series['N'][0]:.0f}, time {time}, {last['step']:.0f} steps"
     kind = "cells" if run.grows else "rods" if run.scene["rods"].get("length", 1.0) != 0 else "spheres"
-    return f"{last['N']:.0f} {kind} at volume fraction {last['phi']:.4g}, time {time}, {last['step']:.0f} steps"
+    return f"{last['N']:.0f} {kind} at {run.fraction} {last['phi']:.4g}, time {time}, {last['step']:.0f} steps"
 
 
 def verdict_list(run):
@@ -152,7 +152,8 @@ def average_rows(run):
             factor, unit = run.readable(average.get("unit", "1"))
             yield (words, number(factor * average["mean"], error and factor * error),
                    "–" if error is None else f"{factor * error:.2g}", "–" if n_eff is None else f"{n_eff:.0f}", unit)
-    yield ("volume fraction in the end", f"{run.summary['volume_fraction']:.5g}", "", "", "")
+    filled = "area" if "area_fraction" in run.summary else "volume"
+    yield (f"{filled} fraction in the end", f"{run.summary[filled + '_fraction']:.5g}", "", "", "")
     yield ("largest overlap of the run", f"{run.summary['max_overlap']:.2e}", "", "", "D")
 
 

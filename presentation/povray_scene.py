@@ -91,10 +91,11 @@ def box_edges(frame):
 
 
 class Camera:
-    """Looks from above along the shortest edge's side onto the whole box: the longest edge lies across the picture. With
+    """Looks straight onto a flat box. Else it looks from above along the shortest edge's side onto the whole box: the longest edge lies across the picture. With
     `view` "x", "y" or "z" it looks along that axis. `aspect`: of the picture, else as suits the box."""
 
     def __init__(self, frame, view="", aspect=None):
+        view = view or ("z" if frame.dimensions == 2 else "")
         low, high = extent(frame)
         edges = high - low
         shortest, middle, longest = np.argsort(edges, kind="stable")[[0, 1, 2]]

@@ -62,6 +62,15 @@ class Run(RunFolder):
         number = self.series["N"]
         return self.grows and number[-1] >= 1.5 * number[0]
 
+    @property
+    def dimensions(self):
+        return self.scene.get("box", {}).get("dimensions", 3)
+
+    @property
+    def fraction(self):
+        """What phi is."""
+        return "area fraction" if self.dimensions == 2 else "volume fraction"
+
     def in_unit(self, column):
         """(factor, unit) by which people read a column of the series: factor times the number is in the unit."""
         return self.readable(self.columns.get(column, {}).get("unit", "1"))

@@ -30,6 +30,11 @@ class Frame:
     def __len__(self):
         return len(self.id)
 
+    @property
+    def dimensions(self):
+        """2 of a flat box, whose rods are in the plane z = 0; else 3."""
+        return 3 if self.edges[2] else 2
+
     def unwrapped(self):
         """(N, 3) centres as if no rod had been taken back into the box."""
         copies = self.image * self.edges
@@ -89,7 +94,10 @@ class Trajectory:
         pressure = None
         if "stress_collision" in rods:
             virial = np.trace(column("stress_collision", float), axis1=1, axis2=2)
-            pressure = virial / 3.0 / (np.pi * diameter**2 * (length / 4.0 + diameter / 6.0))
+            if edges[2] == 0.0:  # of a flat box: a force over a length
+                pressure = virial / 2.0 / (diameter * (length + np.pi / 4.0 * diameter))
+            else:
+                pressure = virial / 3.0 / (np.pi * diameter**2 * (length / 4.0 + diameter / 6.0))
         return Frame(step=int(self.steps[k]), time=float(self.times[k]), edges=edges, offset=offset,
                      periodic=np.array([word == "periodic" for word in boundary]), id=ids[rows],
                      centre=column("position", float), image=column("image", np.int32), axis=axis,

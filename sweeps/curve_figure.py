@@ -5,7 +5,7 @@ import math
 from plots import pyplot  # the look of the pictures of reports
 import units
 
-LABELS = {"volume_fraction": "volume fraction", "length": "length", "count": "number of rods"}
+LABELS = {"volume_fraction": "volume fraction", "area_fraction": "area fraction", "length": "length", "count": "number of rods"}
 SYMBOLS = {"Z": "Z", "nematic_order": "nematic order S"}
 MARKERS = "osD^vP*X"
 

@@ -18,7 +18,7 @@ TENSORS = ("stress", "stress_collision", "stress_orientation", "stress_springs",
 TRIPLES = ("principal_stresses", "principal_stresses_collision")  # ascending
 AVERAGES = (*SCALARS, *(f"{name}_{k}" for name in TRIPLES for k in (1, 2, 3)),
             *(f"{name}_{a}{b}" for name in TENSORS for a in AXES for b in AXES))
-FACTS = ("L_over_D", "volume_fraction", "rods", "seed", "time_step", "steps", "time", "equilibration_time", "max_overlap")
+FACTS = ("L_over_D", "volume_fraction", "area_fraction", "rods", "seed", "time_step", "steps", "time", "equilibration_time", "max_overlap")
 DONE, EXTINCT, NOT_BEGUN = "done", "extinct", "not begun"
 
 

@@ -16,30 +16,32 @@ namespace py = pybind11;
 
 namespace {
 
-// The member of a scene as Python sees it; one overload a type.
+// The member of a scene as Python sees it; one overload a type. Vectors have as many numbers as the box has dimensions.
 template <class Member>
-py::object shown(const Member& member) {
+py::object shown(const Member& member, int /*dimensions*/ = 3) {
     return py::cast(member);
 }
-py::object shown(const Vec3& member) {
+py::object shown(const Vec3& member, int dimensions) {
+    if (dimensions == 2) return py::make_tuple(member.x, member.y);
     return py::make_tuple(member.x, member.y, member.z);
 }
-py::object shown(const std::array<bool, 3>& member) {
+py::object shown(const std::array<bool, 3>& member, int dimensions) {
+    if (dimensions == 2) return py::make_tuple(member[0], member[1]);
     return py::make_tuple(member[0], member[1], member[2]);
 }
 template <class Choice>
-requires std::is_enum_v<Choice> py::object shown(const Choice& member) {
+requires std::is_enum_v<Choice> py::object shown(const Choice& member, int /*dimensions*/) {
     return py::cast(std::string(word_of(member)));
 }
 template <class Number>
-py::object shown(const std::optional<Number>& member) {
-    return member ? shown(*member) : py::none();
+py::object shown(const std::optional<Number>& member, int dimensions) {
+    return member ? shown(*member, dimensions) : py::none();
 }
 template <class Value>
-py::object shown(const Ramp<Value>& member) {
+py::object shown(const Ramp<Value>& member, int dimensions) {
     if (member.empty()) return py::none();
     py::list points;
-    for (const auto& [time, value] : member) points.append(py::make_tuple(time, shown(value)));
+    for (const auto& [time, value] : member) points.append(py::make_tuple(time, shown(value, dimensions)));
     return points;
 }
 
@@ -56,7 +58,7 @@ std::vector<std::array<std::string, 2>> keys() {
 py::object value_of(const SceneInPython& self, const std::string& key) {
     py::object value;
     for_each_key(self.scene, [&](std::string_view table, std::string_view name, const auto& member, const auto&) {
-        if (full_key(table, name) == key) value = shown(member);
+        if (full_key(table, name) == key) value = shown(member, dimensions_of(self.scene));
     });
     return value;
 }
@@ -82,10 +84,12 @@ void set_value(SceneInPython& self, const std::string& key, const std::optional<
     for_each_key(scene, [&](std::string_view table, std::string_view name, auto& member, const auto& spec) {
         if (full_key(table, name) != key) return;
         if (toml)
-            KeyReader(document, scene.units.system, key).read(*document.find("", "value"), member, spec);
+            KeyReader(document, scene.units.system, dimensions_of(scene), key)
+                .read(*document.find("", "value"), member, spec);
         else if (!taken_away(member))
             throw InputError({.key = key, .value = "None", .problem = "must have a value"});
     });
+    leave_out_z(scene);
     self.scene = scene;
 }
 

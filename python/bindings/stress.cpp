@@ -80,8 +80,9 @@ Rods rods_of(const Numbers& axis, const Numbers& length, const Numbers& diameter
     return rods;
 }
 
-py::array sum_over_rods(const Numbers& axis, const Numbers& length, const Numbers& diameter, double kT) {
-    return array_of(sum_of_orientation_stresses(rods_of(axis, length, diameter), kT));
+py::array sum_over_rods(const Numbers& axis, const Numbers& length, const Numbers& diameter, double kT,
+                        int dimensions) {
+    return array_of(sum_of_orientation_stresses(rods_of(axis, length, diameter), kT, dimensions));
 }
 
 /// Sum of the pair stresses of rods, as the step of a simulation takes it.

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .frames import lags_of, mean_over_rods, paths_of
+from .frames import lags_of, mean_over_rods, paths_of, second_order
 
 
 @dataclass(frozen=True)
@@ -31,8 +31,8 @@ class Memory:
     """How long rods remember their direction, each an array over times.
 
     time : time between the two directions
-    first : <n(0).n(t)>; exp(-2 D_R t) of a free rod
-    second : <3 (n(0).n(t))^2 - 1>/2; exp(-6 D_R t) of a free rod
+    first : <n(0).n(t)>; exp(-2 D_R t) of a free rod, in two dimensions exp(-D_R t)
+    second : <3 (n(0).n(t))^2 - 1>/2; exp(-6 D_R t) of a free rod; in two dimensions <2 (n(0).n(t))^2 - 1>, exp(-4 D_R t)
     first_error, second_error : standard errors from the scatter between rods; NaN of a single rod
     """
     time: np.ndarray
@@ -61,7 +61,8 @@ def mean_square_displacements(rods):
     Notes
     -----
     A free rod with D_par, D_perp, D_R: with D = (D_par + 2 D_perp)/3 and tau = (1 - exp(-6 D_R t))/(6 D_R),
-    along = 2 D t + (4/3)(D_par - D_perp) tau and total = 6 D t. Rods are taken for independent in the errors.
+    along = 2 D t + (4/3)(D_par - D_perp) tau and total = 6 D t; in two dimensions with D = (D_par + D_perp)/2 and
+    tau = (1 - exp(-4 D_R t))/(4 D_R), along = 2 D t + (D_par - D_perp) tau and total = 4 D t. Rods are taken for independent in the errors.
 
     Examples
     --------
@@ -115,6 +116,6 @@ def orientation_memory(rods):
     rows = []
     for earlier, later in zip(lags.earlier, lags.later):
         cosine = (paths.axis[earlier] * paths.axis[later]).sum(axis=2)
-        rows.append([mean_over_rods(cosine), mean_over_rods(1.5 * cosine**2 - 0.5)])
+        rows.append([mean_over_rods(cosine), mean_over_rods(second_order(cosine, paths.dimensions))])
     means, errors = np.array(rows).transpose(2, 1, 0)
     return Memory(lags.time, *means, *errors)

@@ -51,7 +51,7 @@ def _frame_of_simulation(simulation):
 
 
 def _frames_of_arrays(arrays):
-    """centre (T, N, 3) or (N, 3), edges (3) and, where they are there, axis, length, diameter, time, periodic."""
+    """centre (T, N, 3) or (N, 3), edges (3), of which the last is 0 where all lies in the plane z = 0, and, where they are there, axis, length, diameter, time, periodic."""
     known = ("centre", "axis", "length", "diameter", "edges", "periodic", "time")
     for name in arrays:
         if name not in known:
@@ -69,23 +69,34 @@ def _frames_of_arrays(arrays):
     length, diameter = (with_shape(name, arrays.get(name, default), shape, repeat=True)
                         for name, default in (("length", 0.0), ("diameter", 1.0)))
     edges = with_shape("edges", arrays["edges"], (shape[0], 3), repeat=True)
-    if not (edges > 0).all():
-        refuse("edges", str(arrays["edges"]), "are not all positive", "lengths above 0")
+    flat = (edges[:, 2] == 0).all()
+    if not (edges[:, :2 if flat else 3] > 0).all():
+        refuse("edges", str(arrays["edges"]), "are not all positive", "lengths above 0, or 0 along z of a box of two dimensions")
+    if flat and (centre[..., 2].any() or axis[..., 2].any()):
+        refuse("centre", "", "and axes are not all in the plane z = 0, as edges of 0 along z say", "z = 0")
     time = with_shape("time", arrays.get("time", np.arange(shape[0])), shape[:1])
     periodic = np.asarray(arrays.get("periodic", (True, True, True)))
     if periodic.shape != (3,) or periodic.dtype.kind != "b":
         refuse("periodic", str(arrays["periodic"]), "does not say along which directions", "three of True, False")
+    if flat:
+        periodic = np.append(periodic[:2], False)
     ids, image = np.arange(shape[1], dtype=np.uint64), np.zeros((shape[1], 3), np.int32)
     return [Frame(k, float(time[k]), edges[k], tuple(periodic.tolist()), ids, centre[k], axis[k], image, length[k], diameter[k])
             for k in range(shape[0])]
 
 
+def second_order(cosine, dimensions):
+    """How far directions agree, heads and tails alike: (3 cos^2 - 1)/2, in the plane cos of twice the angle."""
+    return (dimensions * cosine**2 - 1.0) / (dimensions - 1)
+
+
 @dataclass
 class Paths:
-    """Where rods went: time (T); position (T, N, 3), unwrapped; axis (T, N, 3). NaN where a rod is not there."""
+    """Where rods went: time (T); position (T, N, 3), unwrapped; axis (T, N, 3). NaN where a rod is not there. In 2 or 3 dimensions."""
     time: np.ndarray
     position: np.ndarray
     axis: np.ndarray
+    dimensions: int
 
 
 def paths_of(rods):
@@ -101,7 +112,7 @@ def paths_of(rods):
     for k, frame in enumerate(frames):
         rows = np.searchsorted(ids, frame.id)
         position[k, rows], axis[k, rows] = frame.unwrapped, frame.axis
-    return Paths(time, position, axis / np.linalg.norm(axis, axis=2, keepdims=True))
+    return Paths(time, position, axis / np.linalg.norm(axis, axis=2, keepdims=True), frames[0].dimensions)
 
 
 @dataclass

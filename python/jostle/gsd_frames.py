@@ -59,6 +59,7 @@ def turning_z_to(axis):
 def snapshot(frame, kinds):
     made = gsd.hoomd.Snapshot()
     made.configuration.step = frame.step
+    made.configuration.dimensions = 2 if frame.edges[2] == 0.0 else 3
     made.configuration.box = [*edges_around(frame), frame.offset / frame.edges[1], 0, 0]
     rods = made.particles
     rods.N = len(frame)
@@ -77,7 +78,8 @@ def edges_around(frame):
     """GSD knows no open directions: there the box is made so wide that it holds all rods."""
     farthest = np.abs(frame.centre - 0.5 * frame.edges).max(axis=0, initial=0.0)
     around = 2.0 * farthest + (frame.length + frame.diameter).max(initial=0.0)
-    return np.where(frame.periodic, frame.edges, np.maximum(frame.edges, around))
+    flat = frame.edges == 0.0  # along z, of a flat box
+    return np.where(frame.periodic | flat, frame.edges, np.maximum(frame.edges, around))
 
 
 def centred(frame):

@@ -30,7 +30,8 @@ def neighbours(frame, reach):
     from scipy.spatial import cKDTree
     edges, periodic = np.asarray(frame.edges, float), np.asarray(frame.periodic, bool)
     centre = np.asarray(frame.centre, float)
-    centre = np.where(periodic, centre - edges * np.floor(centre / edges), centre)
+    around = np.where(periodic, edges, np.inf)
+    centre = np.where(periodic, centre - edges * np.floor(centre / around), centre)
     if not (reach <= MOST_EDGES * np.where(periodic, edges, np.inf)).all():
         refuse("rods", f"a reach of {reach:g}", "goes through the box too often", f"at most {MOST_EDGES} of its edges")
     points, rod = centre, np.arange(len(centre))

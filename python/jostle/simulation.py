@@ -173,7 +173,7 @@ class Simulation:
 
     @property
     def edges(self):
-        """(3) array, length: edges of the box, whose lowest corner is the origin."""
+        """(3) array, length: edges of the box, whose lowest corner is the origin; of a flat box the last is 0."""
         return self._core.box()[0]
 
     @property
@@ -188,8 +188,13 @@ class Simulation:
 
     @property
     def volume(self):
-        """Of the box, length**3."""
+        """Of the box, length**3; of a flat box its area, length**2, which stresses refer to: force length**-1."""
         return self._core.box()[2]
+
+    @property
+    def dimensions(self):
+        """2 of a flat box, whose rods are in the plane z = 0; else 3."""
+        return 3 if self.edges[2] else 2
 
     @property
     def kT(self):
@@ -212,7 +217,7 @@ class Simulation:
         report = self.report
         if not report:
             return None
-        kinetic = report.rods * self.kT * np.eye(3)
+        kinetic = report.rods * self.kT * np.diag([1.0, 1.0, self.dimensions - 2.0])
         return (kinetic + report.collision_virial + report.spring_virial) / self.volume + self.stress_orientation
 
     @property
@@ -224,7 +229,7 @@ class Simulation:
     @property
     def stress_orientation(self):
         """(3, 3) array, force length**-2: its part from the Brownian rotation of the rods as they are now."""
-        return orientation_stress(self.rods, self.kT, self.volume)
+        return orientation_stress(self.rods, self.kT, self.volume, self.dimensions)
 
     @property
     def contacts(self):

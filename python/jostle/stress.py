@@ -219,7 +219,7 @@ def collision_stress(rods, contacts, volume, *, at="touching"):
     return _jostle.sum_over_contacts(*shapes, i, j, *columns, gap, force, at == "touching") / space
 
 
-def orientation_stress(rods, kT, volume):
+def orientation_stress(rods, kT, volume, dimensions=3):
     """Orientation stress of rods, -(3 kT/V) sum of B (n n - I/3): what their Brownian rotation carries.
 
     Parameters
@@ -228,6 +228,8 @@ def orientation_stress(rods, kT, volume):
         With axis (N, 3) of unit vectors, length and diameter (N) or one number.
     kT : float, energy, >= 0
     volume : float, length**3
+    dimensions : 3, or 2 of rods in the plane z = 0
+        Then the volume is an area, length**2, and the stress -(2 kT/A) sum of B (n n - I/2), force length**-1.
 
     Returns
     -------
@@ -255,7 +257,9 @@ def orientation_stress(rods, kT, volume):
     temperature = number("kT", kT)
     if not temperature >= 0:
         refuse("kT", str(kT), "is negative", "at least 0")
-    return _jostle.sum_over_rods(*_shapes(rods), temperature) / _positive("volume", volume)
+    if dimensions not in (2, 3):
+        refuse("dimensions", str(dimensions), "is neither of the two", "2 or 3")
+    return _jostle.sum_over_rods(*_shapes(rods), temperature, dimensions) / _positive("volume", volume)
 
 
 def _positive(name, value):

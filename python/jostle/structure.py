@@ -7,7 +7,7 @@ import numpy as np
 from . import _jostle
 from ._arrays import number, whole_number
 from ._jostle import refuse
-from .frames import frames_of
+from .frames import frames_of, second_order
 from .neighbours import neighbours
 
 MOST_WAVE_VECTORS = 200_000
@@ -19,7 +19,7 @@ class PairCorrelation:
 
     distance : middle of the bin, length
     g : density of others at this distance over the mean density; NaN where the box is open in some direction
-    g2 : <3 (n_i.n_j)^2 - 1>/2 of the pairs at this distance; NaN where there is none
+    g2 : <3 (n_i.n_j)^2 - 1>/2 of the pairs at this distance, in two dimensions <2 (n_i.n_j)^2 - 1>; NaN where there is none
     g_error, g2_error : standard errors of the means over frames, as `jostle.average` gives them; NaN where it gives none
     pairs : pairs found, all frames together
     """
@@ -95,7 +95,8 @@ def pair_correlation(rods, largest=None, bins=100):
     bins = whole_number("bins", bins, 1)
     largest = _distance(frames, largest)
     edge = np.linspace(0.0, largest, bins + 1)
-    shell = 4.0 * np.pi / 3.0 * np.diff(edge**3)
+    dimensions = frames[0].dimensions
+    shell = np.pi * np.diff(edge**2) if dimensions == 2 else 4.0 * np.pi / 3.0 * np.diff(edge**3)
     pairs, g, g2 = [], [], []
     for frame in frames:
         count = len(frame)
@@ -107,9 +108,9 @@ def pair_correlation(rods, largest=None, bins=100):
         place = np.minimum((ends.distance / largest * bins).astype(int), bins - 1)
         found = np.bincount(place, minlength=bins)
         with np.errstate(invalid="ignore"):
-            g2.append(np.bincount(place, 1.5 * cosine**2 - 0.5, minlength=bins) / found)
-        expected = (count - 1) / 2 * count / np.prod(frame.edges) * shell
-        g.append(found / expected if all(frame.periodic) else np.full(bins, np.nan))
+            g2.append(np.bincount(place, second_order(cosine, dimensions), minlength=bins) / found)
+        expected = (count - 1) / 2 * count / frame.volume * shell
+        g.append(found / expected if frame.closed else np.full(bins, np.nan))
         pairs.append(found)
     return PairCorrelation(0.5 * (edge[1:] + edge[:-1]), np.mean(g, axis=0), weighted_mean(g2, pairs), errors_of(g), errors_of(g2),
                            np.sum(pairs, axis=0))
@@ -146,7 +147,8 @@ def structure_factor(rods, largest=None):
     frames = frames_of(rods)
     edges = np.asarray(frames[0].edges, float)
     width = 2.0 * np.pi / edges.max()
-    most = (MOST_WAVE_VECTORS * 12.0 * np.pi**2 / np.prod(edges))**(1.0 / 3.0)
+    flat = frames[0].dimensions == 2
+    most = (MOST_WAVE_VECTORS * (8.0 * np.pi if flat else 12.0 * np.pi**2) / frames[0].volume)**(1.0 / frames[0].dimensions)
     if largest is None:
         largest = max(width, min(4.0 * np.pi / float(np.mean(frames[0].diameter)), most))
     largest = number("largest", largest)
@@ -156,7 +158,7 @@ def structure_factor(rods, largest=None):
     shells = int(largest / width * (1.0 + 1e-9) + 0.5)
     rows, counts, numbers = [], [], []
     for frame in frames:
-        if not all(frame.periodic):
+        if not frame.closed:
             refuse("rods", "", "are in a box that is open: no wave vectors belong to it", "a box that is periodic in all directions")
         if frame.offset != 0.0:
             refuse("rods", "", "are in a box that a flow has sheared: its wave vectors lie obliquely", "a box that is rectangular")
@@ -228,8 +230,10 @@ def _distance(frames, largest):
 def _powers(frame, largest):
     """Sizes of the wave vectors up to the largest, q or -q, and |sum exp(-i q.r)|^2/N of each."""
     along = np.argsort(-np.asarray(frame.edges, float))  # the longest edge, which has most wave vectors, row by row
-    edges, turns = np.asarray(frame.edges, float)[along], (np.asarray(frame.centre, float) / frame.edges)[:, along]
+    edges = np.asarray(frame.edges, float)[along]
     most = np.floor(largest * (1.0 + 1e-9) * edges / (2.0 * np.pi)).astype(int)
+    edges[edges == 0.0] = 1.0  # of a flat box: no wave vector has a part along z
+    turns = np.asarray(frame.centre, float)[:, along] / edges
     y, z = (np.arange(-m, m + 1) * 2.0 * np.pi / edge for m, edge in zip(most[1:], edges[1:]))
     across = [np.exp(-2j * np.pi * np.outer(np.arange(-most[a], most[a] + 1), turns[:, a])) for a in (1, 2)]
     sizes, powers = [], []

@@ -17,8 +17,8 @@ _DATASETS = {"centre": "position", "axis": "orientation", "image": "image", "len
 class Frame:
     """The rods at one time, in the order of their ids; single precision, to look at and to analyse.
 
-    step, time; edges (3), length; periodic (3); offset, length: the copies above along y are displaced by it along x, where
-    a flow shears the box
+    step, time; edges (3), length, the last 0 of a flat box; periodic (3); offset, length: the copies above along y are
+    displaced by it along x, where a flow shears the box
     id (N), uint64; centre (N, 3), length, inside the box along periodic directions; image (N, 3), box edges crossed;
     axis (N, 3), unit vectors; length, diameter (N), length
     """
@@ -36,6 +36,21 @@ class Frame:
 
     def __len__(self):
         return len(self.id)
+
+    @property
+    def dimensions(self):
+        """2 of a flat box, whose rods are in the plane z = 0; else 3."""
+        return 3 if self.edges[2] else 2
+
+    @property
+    def volume(self):
+        """Of the box; of a flat box its area."""
+        return float(np.prod(self.edges[:self.dimensions]))
+
+    @property
+    def closed(self):
+        """Whether the box is periodic along every direction that it has."""
+        return all(self.periodic[:self.dimensions])
 
     @property
     def unwrapped(self):

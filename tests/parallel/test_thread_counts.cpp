@@ -12,6 +12,7 @@
 
 #include "jostle/math/random.hpp"
 #include "jostle/parallel/parallel_for.hpp"
+#include "jostle/scene/scene_box.hpp"
 #include "jostle/setup/assemble.hpp"
 #include "jostle/setup/monte_carlo.hpp"
 #include "jostle/setup/push_apart.hpp"
@@ -76,10 +77,9 @@ struct Outcome {
     std::vector<double> gamma;  ///< of the last step
 };
 
+/// Cubic, or flat.
 Box cube_of(const Scene& scene) {
-    const double volume = static_cast<double>(scene.rods.count) * rod_volume(scene.rods.length, scene.rods.diameter);
-    const double edge = std::cbrt(volume / *scene.box.volume_fraction);
-    return {{edge, edge, edge}, scene.box.periodic};
+    return {box_edges(scene), box_periodic(scene)};
 }
 
 Rods start_of(const Scene& scene, int threads) {
@@ -176,6 +176,15 @@ TEST_CASE("rods: the same bits after 30 steps with 1, 2 and 4 threads") {
 
 TEST_CASE("spheres: the same bits after 30 steps with 1, 2 and 4 threads") {
     check_steps_with_every_thread_count(crowd(crowd_count, 0.0, 0.3));
+}
+
+TEST_CASE("a monolayer: the same bits after 30 steps with 1, 2 and 4 threads") {
+    Scene scene = crowd(crowd_count, 2.0, 0.0);
+    scene.box.dimensions = 2;
+    scene.box.area_fraction = 0.5;
+    scene.motion = {true, 2.0, 0.5, 5.0, 0.2, 5.0};
+    scene.contact.range = 0.5;
+    check_steps_with_every_thread_count(scene);
 }
 
 TEST_CASE("swimmers that tumble and turn round: the same bits after 30 steps with 1, 2 and 4 threads") {

@@ -194,7 +194,8 @@ double CollisionSearch::append(const PairKey& key, const PairGeometry& before, c
         contacts.contact[first].shifted_gap -= shift;
         return shift;
     }
-    append_contacts(key, before, nearest, distance, interaction_range_[key.i] + interaction_range_[key.j], contacts);
+    append_contacts(key, before, nearest, distance, interaction_range_[key.i] + interaction_range_[key.j],
+                    step.box.dimensions(), contacts);
     return set_shifted_gaps(step.shift, after, first, contacts);
 }
 

@@ -20,7 +20,7 @@ double find_contacts(const Rods& rods, const Box& box, const NeighbourList& neig
         const NearestPoints nearest = nearest_points(geometry);
         const double distance = norm(nearest.separation);
         if (distance >= geometry.radii + range) return;
-        append_contacts(key, geometry, nearest, distance, range, blocks[block]);
+        append_contacts(key, geometry, nearest, distance, range, box.dimensions(), blocks[block]);
         overlaps[block] = std::max(overlaps[block], geometry.radii - distance);
     };
     parallel_for_parts(blocks.size(), [&](std::size_t block) {

@@ -14,7 +14,7 @@ namespace {
 void append_points(const FixedCopy& copy, std::uint32_t row, const PairGeometry& pair, const NearestPoints& nearest,
                    double range, Contacts& contacts) {
     const PairKey key = {body_of_fixed_rod(copy.number), row, copy.image};
-    append_contacts(key, pair, nearest, norm(nearest.separation), range, contacts);
+    append_contacts(key, pair, nearest, norm(nearest.separation), range, 3, contacts);
 }
 
 /// Whether a pair's middle points are farther apart than it could touch from.

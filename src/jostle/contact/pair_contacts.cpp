@@ -13,6 +13,9 @@ constexpr double negligible_sag = 5e-4;
 /// Ends nearer than this (in D) to a point that is already a contact add nothing but a nearly dependent row.
 constexpr double least_spacing = 0.1;
 
+/// Axes nearer to each other than this (in D) cross, or coincide.
+constexpr double crossing = 1e-9;
+
 /// One possible contact point of a pair.
 struct Point {
     double s_i, s_j, distance;
@@ -22,10 +25,33 @@ struct Point {
 
 /// The direction along which to push apart, also where the axes cross or coincide and the separation says nothing.
 Vec3 contact_normal(const Vec3& separation, double distance, const PairGeometry& pair) {
-    if (distance > 1e-9 * pair.radii) return separation / distance;
+    if (distance > crossing * pair.radii) return separation / distance;
     const Vec3 across = cross(pair.axis_i, pair.axis_j);
     const double sine = norm(across);
     return sine > 1e-9 ? across / sine : any_perpendicular(pair.axis_i);
+}
+
+/// The contact of two rods in a plane whose axes cross, where no direction between them says how to push them apart.
+///
+///           | i          the end of j is to be drawn back across the axis of i: the least way out. The gap counts from
+///     ======+==| j       where that end only touches the axis.
+///  normal <-|
+Contact contact_across(const PairKey& key, const PairGeometry& pair, const NearestPoints& points) {
+    Contact contact{key.i, key.j, any_perpendicular(pair.axis_i), points.s_i, points.s_j, -pair.radii, -pair.radii};
+    const double sine = norm(cross(pair.axis_i, pair.axis_j));
+    if (!(sine > 1e-9)) return contact;  // the axes coincide
+    const double beyond_i = pair.half_i - std::fabs(points.s_i), beyond_j = pair.half_j - std::fabs(points.s_j);
+    const bool of_j = beyond_j <= beyond_i;  // which end is drawn back
+    const Vec3 &drawn = of_j ? pair.axis_j : pair.axis_i, &other = of_j ? pair.axis_i : pair.axis_j;
+    double &arm = of_j ? contact.arm_j : contact.arm_i, &foot = of_j ? contact.arm_i : contact.arm_j;
+    const double end = std::copysign(of_j ? pair.half_j : pair.half_i, arm);
+    const double cosine = dot(drawn, other), half_of_other = of_j ? pair.half_i : pair.half_j;
+    const Vec3 outwards = (std::copysign(1.0, arm) / sine) * (drawn - cosine * other);
+    foot = std::clamp(foot + (end - arm) * cosine, -half_of_other, half_of_other);
+    arm = end;
+    contact.normal = of_j ? -outwards : outwards;
+    contact.gap = contact.shifted_gap = -pair.radii - (of_j ? beyond_j : beyond_i) * sine;
+    return contact;
 }
 
 /// Adds the ends of the stretch along which the rods lie side by side: at most one to each side of the nearest points.
@@ -64,7 +90,11 @@ EndPoints end_points(const PairGeometry& pair, const Point& nearest, double rang
 }  // namespace
 
 void append_contacts(const PairKey& key, const PairGeometry& pair, const NearestPoints& points, double distance,
-                     double range, Contacts& contacts) {
+                     double range, int dimensions, Contacts& contacts) {
+    if (dimensions == 2 && distance <= crossing * pair.radii) {
+        contacts.push_back(contact_across(key, pair, points), key.image, ContactFeature::nearest);
+        return;
+    }
     const Point nearest{points.s_i, points.s_j, distance, points.separation, ContactFeature::nearest};
     const auto add = [&](const Point& point) {
         const Vec3 normal = contact_normal(point.separation, point.distance, pair);

@@ -63,9 +63,10 @@ inline bool pair_overlaps(const PairGeometry& pair) {
 ///     =====================o======         they replace them (three contacts of two straight rods would
 ///          o  nearest      o               make A singular); of a rod and its image the nearest points alone
 ///
-/// `nearest`: of `pair`; `distance`: between those points.
+/// `nearest`: of `pair`; `distance`: between those points. In two dimensions normals stay in the plane: where the axes
+/// of two rods cross, the one whose end is nearer to the crossing is to be drawn back across the axis of the other.
 void append_contacts(const PairKey& key, const PairGeometry& pair, const NearestPoints& nearest, double distance,
-                     double range, Contacts& contacts);
+                     double range, int dimensions, Contacts& contacts);
 
 /// The gap at a contact when its rods lie as in `pair`: its points follow their feature, and rods that have passed
 /// through each other count as overlapping.

@@ -149,7 +149,7 @@ LineageEvent Growth::split(Rods& rods, std::size_t row, const Box& box, std::uin
     const double share = rods.cycle[row].share;
 
     rods.centre[row] = rods.centre[row] - step_along;
-    if (law_.daughters == DaughterDirection::opposite) rods.axis[row] = -axis;
+    if (law_.daughters == DaughterDirection::opposite) rods.axis[row] = Vec3{} - axis;  // 0 stays 0, not -0
     rods.length[row] = length;
     rods.cycle[row] = newborn(mother, length, diameter, step, divisions + 1);
     rods.cycle[row].share = share;

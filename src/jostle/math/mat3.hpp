@@ -41,6 +41,11 @@ inline Mat3 identity() {
     return Mat3{{1, 0, 0, 0, 1, 0, 0, 0, 1}};
 }
 
+/// Of the space that bodies move in: of two dimensions that of the plane z = 0.
+inline Mat3 identity(int dimensions) {
+    return Mat3{{1, 0, 0, 0, 1, 0, 0, 0, dimensions == 2 ? 0.0 : 1.0}};
+}
+
 /// The dyad a b: element (k, l) is a_k b_l.
 inline Mat3 outer(const Vec3& a, const Vec3& b) {
     return Mat3{{a.x * b.x, a.x * b.y, a.x * b.z, a.y * b.x, a.y * b.y, a.y * b.z, a.z * b.x, a.z * b.y, a.z * b.z}};

@@ -80,8 +80,10 @@ inline std::array<float, 3> in_float(const Vec3& a) {
     return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
 }
 
-/// Some unit vector at right angles to the unit vector `n`, the same for the same `n`.
+/// Some unit vector at right angles to the unit vector `n`, the same for the same `n`; of a vector in the plane z = 0
+/// the one in that plane.
 inline Vec3 any_perpendicular(const Vec3& n) {
+    if (n.z == 0.0) return {0.0 - n.y, n.x, 0.0};
     const double ax = std::fabs(n.x), ay = std::fabs(n.y), az = std::fabs(n.z);
     const Vec3 e = (ax <= ay && ax <= az) ? Vec3{1, 0, 0} : (ay <= az ? Vec3{0, 1, 0} : Vec3{0, 0, 1});
     return normalised(cross(n, e));

@@ -38,7 +38,8 @@ WatchedColumn watched(const SeriesTable& series, std::size_t first, const char* 
 
 /// Of the whole stress, which a flow keeps up.
 std::vector<double> shear_stress(const Scene& scene, const SeriesTable& series, std::size_t first) {
-    const Columns stress = total_stress_columns(series, first, !scene.springs.file.empty(), false);
+    const Columns stress =
+        total_stress_columns(series, first, !scene.springs.file.empty(), false, dimensions_of(scene));
     std::vector<double> rows = stress[1];
     for (std::size_t row = 0; row < rows.size(); ++row) rows[row] = 0.5 * (rows[row] + stress[3][row]);
     return rows;
@@ -56,6 +57,7 @@ ProductionSeries production_series(const Scene& scene, const SeriesTable& series
                                    bool turn) {
     const std::vector<double>& time = series.column("time");
     ProductionSeries production;
+    production.dimensions = dimensions_of(scene);
     production.row_time = time.empty() ? 0.0 : (time.back() - begin) / static_cast<double>(time.size());
     production.watched = {watched(series, first, "pressure_collision", "collision pressure")};
     if (flows(scene)) production.watched.push_back({"shear stress", shear_stress(scene, series, first)});

@@ -20,6 +20,11 @@ using Series = TableColumns<RowState>;
 
 constexpr const char* in_compression = "positive in compression";
 
+/// "Tr Sigma/3"; in two dimensions "Tr Sigma/2".
+std::string mean_of_normal(const Scene& scene, const char* stress) {
+    return std::string("Tr ") + stress + (dimensions_of(scene) == 2 ? "/2" : "/3");
+}
+
 void add_state_columns(const Scene& scene, Series& series) {
     auto& columns = series.columns;
     columns.push_back({{"step", "1", "k", "number of steps done", ""},
@@ -28,12 +33,15 @@ void add_state_columns(const Scene& scene, Series& series) {
                        [](const RowState& row) { return row.simulation.clock().time; }});
     columns.push_back({{"N", "1", "N", "number of rods at this step", ""},
                        [](const RowState& row) { return static_cast<double>(row.simulation.rods().size()); }});
-    columns.push_back({{"phi", "1", "phi", "volume of the rods at this step over volume of the box", ""},
-                       [](const RowState& row) { return total_volume(row.simulation.rods()) / row.volume; }});
+    const char* fraction = dimensions_of(scene) == 2 ? "area of the rods at this step over area of the box"
+                                                     : "volume of the rods at this step over volume of the box";
+    columns.push_back({{"phi", "1", "phi", fraction, ""}, [](const RowState& row) {
+                           return total_volume(row.simulation.rods(), row.simulation.box().dimensions()) / row.volume;
+                       }});
 }
 
 void add_pressure_columns(const Scene& scene, Series& series) {
-    const std::string stress = unit_of(scene, dimension::stress);
+    const std::string stress = unit_of_stress(scene);
     const bool springs = !scene.springs.file.empty();
     const std::string parts = springs ? "with the kinetic part n kT and that of springs" : "with the kinetic part n kT";
     auto& columns = series.columns;
@@ -45,15 +53,17 @@ void add_pressure_columns(const Scene& scene, Series& series) {
                         : std::nan("");
          }});
     columns.push_back(
-        {{"pressure", stress, "Pi", "Tr Sigma/3 " + parts + ", mean over the steps since the last row", in_compression},
+        {{"pressure", stress, "Pi",
+          mean_of_normal(scene, "Sigma") + " " + parts + ", mean over the steps since the last row", in_compression},
          [](const RowState& row) { return pressure(row.stress); }});
-    columns.push_back({{"pressure_collision", stress, "Pi_col",
-                        "Tr Sigma_col/3, mean over the steps since the last row", in_compression},
-                       [](const RowState& row) { return pressure_collision(row.stress); }});
+    columns.push_back(
+        {{"pressure_collision", stress, "Pi_col",
+          mean_of_normal(scene, "Sigma_col") + ", mean over the steps since the last row", in_compression},
+         [](const RowState& row) { return pressure_collision(row.stress); }});
 }
 
 void add_stress_columns(const Scene& scene, Series& series) {
-    const std::string stress = unit_of(scene, dimension::stress);
+    const std::string stress = unit_of_stress(scene);
     series.add_elements(
         stress_column_names,
         {"", stress, "Sigma_col",
@@ -61,17 +71,23 @@ void add_stress_columns(const Scene& scene, Series& series) {
         [](const RowState& row, std::size_t k) { return row.stress.collision.m[k]; });
     series.add_elements(orientation_stress_column_names,
                         {"", stress, "Sigma_ori",
-                         "element of the orientation stress at this step, sum over rods of -3 kT B (n n - I/3) over "
-                         "the volume, which Brownian rotation carries; symmetric, traceless",
+                         dimensions_of(scene) == 2
+                             ? "element of the orientation stress at this step, sum over rods of -2 kT B (n n - I/2) "
+                               "over the area, which Brownian rotation carries; symmetric, traceless"
+                             : "element of the orientation stress at this step, sum over rods of -3 kT B (n n - I/3) "
+                               "over the volume, which Brownian rotation carries; symmetric, traceless",
                          in_compression},
                         [](const RowState& row, std::size_t k) { return upper_element(row.stress.orientation, k); });
 }
 
-void add_order_columns(Series& series) {
+void add_order_columns(const Scene& scene, Series& series) {
     series.columns.push_back({{"nematic_order", "1", "S", "largest eigenvalue of the order tensor at this step", ""},
                               [](const RowState& row) { return row.order.order; }});
     series.add_elements(order_tensor_column_names,
-                        {"", "1", "Q", "element of the order tensor <3 n n - I>/2 at this step", ""},
+                        {"", "1", "Q",
+                         dimensions_of(scene) == 2 ? "element of the order tensor <2 n n - I> of the plane at this step"
+                                                   : "element of the order tensor <3 n n - I>/2 at this step",
+                         ""},
                         [](const RowState& row, std::size_t k) { return upper_element(row.order.tensor, k); });
 }
 
@@ -99,11 +115,11 @@ void add_contact_columns(const Scene& scene, Series& series) {
 }
 
 void add_spring_columns(const Scene& scene, Series& series) {
-    const std::string stress = unit_of(scene, dimension::stress);
+    const std::string stress = unit_of_stress(scene);
     const std::string sign = "positive in compression: negative where springs pull";
-    series.columns.push_back(
-        {{"pressure_springs", stress, "Pi_spr", "Tr Sigma_spr/3, mean over the steps since the last row", sign},
-         [](const RowState& row) { return pressure_springs(row.stress); }});
+    series.columns.push_back({{"pressure_springs", stress, "Pi_spr",
+                               mean_of_normal(scene, "Sigma_spr") + ", mean over the steps since the last row", sign},
+                              [](const RowState& row) { return pressure_springs(row.stress); }});
     series.add_elements(
         spring_stress_column_names,
         {"", stress, "Sigma_spr",
@@ -113,7 +129,7 @@ void add_spring_columns(const Scene& scene, Series& series) {
 
 void add_torque_columns(const Scene& scene, Series& series) {
     series.add_elements(torque_stress_column_names,
-                        {"", unit_of(scene, dimension::stress), "Sigma_torques",
+                        {"", unit_of_stress(scene), "Sigma_torques",
                          "element of the stress of aligning torques, the geometric part of each; traceless, mean over "
                          "the steps since the last row",
                          in_compression},
@@ -124,7 +140,7 @@ void add_torque_columns(const Scene& scene, Series& series) {
 
 void add_force_columns(const Scene& scene, Series& series) {
     series.add_elements(force_moment_column_names,
-                        {"", unit_of(scene, dimension::stress), "",
+                        {"", unit_of_stress(scene), "",
                          "sum over the rods, at this step, of the constant force times how far along it they are from "
                          "the middle of the box, over the volume: what walls feel more than the mean stress",
                          ""},
@@ -157,11 +173,14 @@ void add_volume_columns(const Scene& scene, Series& series) {
 }
 
 void add_active_columns(const Scene& scene, Series& series) {
-    const std::string stress = unit_of(scene, dimension::stress);
+    const std::string stress = unit_of_stress(scene);
     const std::string sign =
         "positive in compression; not a number in the rows before the first displacements of that age";
-    series.columns.push_back({{"pressure_active", stress, "Pi_act", "Tr Sigma_act/3 at this step", sign},
-                              [](const RowState& row) { return trace(row.sums.active_virial) / (3.0 * row.volume); }});
+    series.columns.push_back(
+        {{"pressure_active", stress, "Pi_act", mean_of_normal(scene, "Sigma_act") + " at this step", sign},
+         [](const RowState& row) {
+             return trace(row.sums.active_virial) / (row.simulation.box().dimensions() * row.volume);
+         }});
     series.add_elements(active_stress_column_names,
                         {"", stress, "Sigma_act",
                          "element of the active (swim) stress at this step: sum over rods of x F over the volume, "
@@ -172,7 +191,7 @@ void add_active_columns(const Scene& scene, Series& series) {
 }
 
 void add_convention_columns(const Scene& scene, Series& series) {
-    const std::string stress = unit_of(scene, dimension::stress);
+    const std::string stress = unit_of_stress(scene);
     const auto mean = [](const Mat3& sum, const RowState& row, std::size_t k) {
         return sum.m[k] / (row.sums.steps * row.volume);
     };
@@ -200,11 +219,13 @@ RowState::RowState(const Simulation& of, const StepSums& since_last_row)
       volume(of.box().volume()),
       kT(sums.kT ? *sums.kT / sums.steps : of.settings().kT),
       density(sums.rods / sums.steps / volume),
-      stress(assembly_stress(density, kT, volume,
-                             {.collision = (1.0 / sums.steps) * sums.collision_virial,
-                              .orientation = sum_of_orientation_stresses(of.rods(), of.settings().kT),
-                              .springs = (1.0 / sums.steps) * sums.spring_virial})),
-      order(nematic_order(of.rods().axis)) {
+      stress(assembly_stress(
+          density, kT, volume,
+          {.collision = (1.0 / sums.steps) * sums.collision_virial,
+           .orientation = sum_of_orientation_stresses(of.rods(), of.settings().kT, of.box().dimensions()),
+           .springs = (1.0 / sums.steps) * sums.spring_virial},
+          of.box().dimensions())),
+      order(nematic_order(of.rods().axis, of.box().dimensions())) {
     if (const auto& flow = of.settings().flow)
         flow_virial = sum_of_flow_stresses(of.rods(), *of.mobility().at(of.rods(), of.box()), *flow, of.clock(),
                                            of.settings().time_step);
@@ -215,7 +236,7 @@ TableColumns<RowState> series_columns(const Scene& scene) {
     add_state_columns(scene, series);
     add_pressure_columns(scene, series);
     add_stress_columns(scene, series);
-    add_order_columns(series);
+    add_order_columns(scene, series);
     add_contact_columns(scene, series);
     if (scene_walls(scene).any()) add_wall_columns(scene, series);
     if (has_flow(scene)) add_flow_columns(scene, series);

@@ -1,5 +1,7 @@
 #include "jostle/measurement/side_tables.hpp"
 
+#include <fmt/core.h>
+
 #include <limits>
 
 #include "jostle/scene/scene_walls.hpp"
@@ -99,7 +101,7 @@ TableRows lineage_rows(const TableColumns<LineageState>& columns, const Simulati
 
 TableColumns<FieldState> field_columns(const Scene& scene) {
     using Item = FieldState;
-    const std::string length = unit_of(scene, dimension::length), stress = unit_of(scene, dimension::stress);
+    const std::string length = unit_of(scene, dimension::length), stress = unit_of_stress(scene);
     const char* sign = "positive in compression";
     TableColumns<Item> table{"field", {}};
     table.columns = {
@@ -109,8 +111,10 @@ TableColumns<FieldState> field_columns(const Scene& scene) {
          [](const Item& item) { return item.centre.x; }},
         {{"y", length, "", "centre of the cell", ""}, [](const Item& item) { return item.centre.y; }},
         {{"z", length, "", "centre of the cell", ""}, [](const Item& item) { return item.centre.z; }},
-        {{"number_density", unit_of(scene, dimension::number_density), "n",
-          "rods per volume in the cell, mean over the steps since the last field", ""},
+        {{"number_density", unit_of_number_density(scene), "n",
+          fmt::format("rods per {} in the cell, mean over the steps since the last field",
+                      dimensions_of(scene) == 2 ? "area" : "volume"),
+          ""},
          [](const Item& item) { return item.content.number_density; }}};
     table.add_elements(stress_column_names,
                        {"", stress, "Sigma_col",

@@ -41,7 +41,7 @@ double kinetic_pressure(const SeriesTable& series, std::size_t first, bool sprin
     return column_mean(kinetic_column(series, first, springs));
 }
 
-Columns total_stress_columns(const SeriesTable& series, std::size_t first, bool springs, bool torques) {
+Columns total_stress_columns(const SeriesTable& series, std::size_t first, bool springs, bool torques, int dimensions) {
     Columns total = window_columns(series, first, stress_column_names);
     Columns parts = orientation_stress_columns(series, first);
     const std::vector<double> kinetic = kinetic_column(series, first, springs);
@@ -54,7 +54,7 @@ Columns total_stress_columns(const SeriesTable& series, std::size_t first, bool 
         for (std::size_t k = 0; k < 9; ++k) add(parts[k], of_torques[k], 1.0);
     }
     for (std::size_t k = 0; k < 9; ++k) add(total[k], parts[k], 1.0);
-    for (const std::size_t diagonal : {0U, 4U, 8U}) add(total[diagonal], kinetic, 1.0);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dimensions); ++k) add(total[4 * k], kinetic, 1.0);
     return total;
 }
 

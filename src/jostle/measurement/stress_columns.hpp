@@ -13,8 +13,9 @@ Mat3 stress_of(std::span<const double> means);
 Columns orientation_stress_columns(const SeriesTable& series, std::size_t first);
 
 /// The nine columns of the whole stress (theory, eq. 1.19), from row `first` on: n kT on the diagonal, orientation
-/// stress, collision stress, and that of springs and of torques where there are some.
-Columns total_stress_columns(const SeriesTable& series, std::size_t first, bool springs, bool torques);
+/// stress, collision stress, and that of springs and of torques where there are some. In two dimensions there is none
+/// along z.
+Columns total_stress_columns(const SeriesTable& series, std::size_t first, bool springs, bool torques, int dimensions);
 
 /// The mean of n kT, from row `first` on.
 double kinetic_pressure(const SeriesTable& series, std::size_t first, bool springs);

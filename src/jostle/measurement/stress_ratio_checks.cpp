@@ -18,8 +18,9 @@ using Json = nlohmann::ordered_json;
 /// Standard errors between what is measured and what equilibrium has that are still called agreement (false alarm
 /// 6e-5).
 constexpr double agreement = 4.0;
-/// The same where the direction is chance (theory, section 1): chi of five degrees of freedom for a normal variable.
-constexpr double agreement_along_chance = 5.2;
+/// The same where the direction is chance (theory, section 1): chi of five degrees of freedom for a normal variable, or
+/// of two in the plane.
+constexpr double agreement_along_chance = 5.2, agreement_along_chance_in_plane = 4.4;
 
 Mat3 order_of(std::span<const double> means) {
     const auto q = means.first(6);
@@ -31,10 +32,10 @@ double along(const Mat3& tensor, const Vec3& direction) {
 }
 
 /// A stress along a direction over that across it.
-double stress_ratio(std::span<const double> means, const Vec3& direction) {
+double stress_ratio(std::span<const double> means, const Vec3& direction, int dimensions) {
     const Mat3 tensor = stress_of(means);
     const double parallel = along(tensor, direction);
-    return 2.0 * parallel / (trace(tensor) - parallel);
+    return (dimensions - 1) * parallel / (trace(tensor) - parallel);
 }
 
 /// What a ratio may be in equilibrium.
@@ -69,22 +70,25 @@ Json check_of_one(const std::string& definition, const Estimate& measured) {
     return ratio_check(definition, measured, {1.0, 1.0}, measured.standard_error, agreement);
 }
 
-Json total_stress_ratio_check(const Columns& stress, const Columns& order) {
+Json total_stress_ratio_check(const Columns& stress, const Columns& order, int dimensions) {
     const MeanDirector director = mean_director(order);
-    const Estimate measured =
-        jackknife(stress, [&](std::span<const double> means) { return stress_ratio(means, director.direction); });
+    const Estimate measured = jackknife(
+        stress, [&](std::span<const double> means) { return stress_ratio(means, director.direction, dimensions); });
+    const double chance = dimensions == 2 ? agreement_along_chance_in_plane : agreement_along_chance;
     return ratio_check("total stress along the mean director of the rods over that across it", measured, {1.0, 1.0},
-                       measured.standard_error, director.order < nematic_above ? agreement_along_chance : agreement);
+                       measured.standard_error, director.order < nematic_above ? chance : agreement);
 }
 
 Json collision_stress_ratio_check(const Columns& stress, const Columns& order, const std::vector<double>& Z,
-                                  double aspect_ratio) {
+                                  double aspect_ratio, int dimensions) {
     const double B = moment_anisotropy(aspect_ratio);
     const MeanDirector director = mean_director(order);
-    const auto of_stress = [&](std::span<const double> means) { return stress_ratio(means, director.direction); };
+    const auto of_stress = [&](std::span<const double> means) {
+        return stress_ratio(means, director.direction, dimensions);
+    };
     const auto of_order = [&](std::span<const double> means) {  // order tensor, Z
         const double S = along(order_of(means), director.direction);
-        return (means[6] - 1.0 + 2.0 * B * S) / (means[6] - 1.0 - B * S);
+        return (means[6] - 1.0 + (dimensions - 1) * B * S) / (means[6] - 1.0 - B * S);
     };
     Columns order_and_Z = order;
     order_and_Z.push_back(Z);

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "jostle/error/input_error.hpp"
-#include "jostle/math/symmetric_eigen.hpp"
 #include "jostle/measurement/flow_summary.hpp"
 #include "jostle/measurement/production_window.hpp"
 #include "jostle/measurement/stress_columns.hpp"
@@ -35,8 +34,9 @@ using Json = nlohmann::ordered_json;
 /// of an isotropic state lie two apart in the mean, and four once in a thousand times.
 constexpr double distinct = 4.0;
 
-double eigenvalue_ratio(std::span<const double> stress) {
-    return anisotropy_ratio(stress_of(stress));
+/// Of the means of nine columns.
+auto eigenvalue_ratio_in(int dimensions) {
+    return [dimensions](std::span<const double> stress) { return anisotropy_ratio(stress_of(stress), dimensions); };
 }
 
 /// The active stress, over the rows of the window that have one.
@@ -63,17 +63,17 @@ std::vector<double> along_rows(const Columns& stress, const Vec3& direction) {
 }
 
 /// Eigenvalues of the mean stress, ascending, each with the error of the stress along its eigenvector.
-Json mean_principal_stresses(const Columns& stress, const std::string& unit) {
+Json mean_principal_stresses(const Columns& stress, const std::string& unit, int dimensions) {
     std::array<double, 9> mean{};
     for (std::size_t k = 0; k < 9; ++k) mean[k] = column_mean(stress[k]);
-    const auto eigen = symmetric_eigen(stress_of(mean));
+    const PrincipalStresses principal = principal_stresses(stress_of(mean), dimensions);
     Json means = Json::array(), errors = Json::array();
-    for (std::size_t k = 0; k < 3; ++k) {
-        means.push_back(eigen.values[k]);
-        errors.push_back(optional_number(average(along_rows(stress, eigen.vectors[k])).standard_error));
+    for (std::size_t k = 0; k < principal.values.size(); ++k) {
+        means.push_back(principal.values[k]);
+        errors.push_back(optional_number(average(along_rows(stress, principal.directions[k])).standard_error));
     }
-    std::vector<double> difference = along_rows(stress, eigen.vectors[2]);
-    const std::vector<double> least = along_rows(stress, eigen.vectors[0]);
+    std::vector<double> difference = along_rows(stress, principal.directions.back());
+    const std::vector<double> least = along_rows(stress, principal.directions.front());
     for (std::size_t row = 0; row < difference.size(); ++row) difference[row] -= least[row];
     const Average spread = average(difference);
     return {{"mean", means},
@@ -84,8 +84,8 @@ Json mean_principal_stresses(const Columns& stress, const std::string& unit) {
 
 /// The ratio of the largest to the smallest principal stress. Where these do not differ by more than chance it has a
 /// kink, and lies above 1 by noise alone: it has no error bar there.
-Json anisotropy(const Columns& stress, const Json& principal) {
-    Json entry = described(jackknife(stress, eigenvalue_ratio));
+Json anisotropy(const Columns& stress, const Json& principal, int dimensions) {
+    Json entry = described(jackknife(stress, eigenvalue_ratio_in(dimensions)));
     if (principal["differ"] != Json(true))
         withhold_errors(entry, "The stress is isotropic within its error: the ratio is above 1 by chance.");
     return entry;
@@ -124,8 +124,8 @@ double without_rounding(double value) {
 }
 
 Json box_entry(const Scene& scene, const Box& box) {
-    return {{"edges", {box.edges().x, box.edges().y, box.edges().z}},
-            {"periodic", scene.box.periodic},
+    return {{"edges", {box.edges().x, box.edges().y, box.edges().z}},  // a flat box has an edge of 0
+            {"periodic", box.periodic()},
             {"unit", unit_of(scene, dimension::length)}};
 }
 
@@ -198,19 +198,22 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
                double begin) {
     const ProductionWindow window = window_of(scene, simulation, series, begin);
     const std::size_t first = window.first_row;
-    const std::string stress_unit = unit_of(scene, dimension::stress);
+    const std::string stress_unit = unit_of_stress(scene);
     const Rods& rods = simulation.rods();
     const bool thermal = simulation.settings().kT > 0.0, grows = scene.growth.rate > 0.0;
     const bool springs = !scene.springs.file.empty();
     const auto average_of = [&](const char* name) { return average(from_row(series.column(name), first)); };
     const Columns collision = window_columns(series, first, stress_column_names);
-    const Columns stress = total_stress_columns(series, first, springs, has_torques(scene));
+    const int dimensions = simulation.box().dimensions();
+    const Columns stress = total_stress_columns(series, first, springs, has_torques(scene), dimensions);
     const Columns order = window_columns(series, first, order_tensor_column_names);
 
     Json summary;
     summary["title"] = scene.title;
     summary["L_over_D"] = mean_aspect_ratio(rods);
-    summary["volume_fraction"] = without_rounding(total_volume(rods) / simulation.box().volume());
+    summary["dimensions"] = dimensions;
+    summary[dimensions == 2 ? "area_fraction" : "volume_fraction"] =
+        without_rounding(total_volume(rods, dimensions) / simulation.box().volume());
     summary["rods"] = rods.size();
     summary["seed"] = simulation.settings().seed;
     const double speed = scene_at(scene, simulation.clock().time).motion.self_propulsion;
@@ -253,20 +256,21 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
             tensor_entry(window_columns(series, first, torque_stress_column_names), stress_unit);
     if (swims(scene)) summarise_active_stress(series, first, stress_unit, summary);
     if (flows(scene)) summary["flow"] = flow_entry(scene, series, first, stress);
-    summary["principal_stresses"] = mean_principal_stresses(stress, stress_unit);
-    summary["principal_stresses_collision"] = mean_principal_stresses(collision, stress_unit);
+    summary["principal_stresses"] = mean_principal_stresses(stress, stress_unit, dimensions);
+    summary["principal_stresses_collision"] = mean_principal_stresses(collision, stress_unit, dimensions);
     if (scene.output.stress_conventions)
         for (const auto& [name, columns] : {std::pair{"centre_of_mass", centre_of_mass_column_names},
                                             std::pair{"centre_line", centre_line_column_names}}) {
             const Columns other = window_columns(series, first, columns);
             summary["stress_conventions"][name] = tensor_entry(other, stress_unit);
-            summary["stress_conventions"][name]["anisotropy"] = described(jackknife(other, eigenvalue_ratio));
+            summary["stress_conventions"][name]["anisotropy"] =
+                described(jackknife(other, eigenvalue_ratio_in(dimensions)));
         }
     summary["nematic_order"] = described(average_of("nematic_order"), "");
     const Vec3 director = mean_director(order).direction;
     summary["director"] = {director.x, director.y, director.z};
-    summary["anisotropy"] = anisotropy(stress, summary["principal_stresses"]);
-    summary["anisotropy_collision"] = anisotropy(collision, summary["principal_stresses_collision"]);
+    summary["anisotropy"] = anisotropy(stress, summary["principal_stresses"], dimensions);
+    summary["anisotropy_collision"] = anisotropy(collision, summary["principal_stresses_collision"], dimensions);
     summary["equilibration_time"] = window.equilibration_time;
     summary["equilibrated"] = window.equilibrated();
     summary["equilibrium"] = described(window.equilibrium);
@@ -278,7 +282,7 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     Json checks = Json::object();
     const bool in_equilibrium = simulation.keeps_equilibrium() && !springs && !ramped && !simulation.box().fixed_rods();
     if (in_equilibrium && simulation.box().is_periodic())
-        checks["total_stress_ratio"] = total_stress_ratio_check(stress, order);
+        checks["total_stress_ratio"] = total_stress_ratio_check(stress, order, dimensions);
     if (in_equilibrium && scene.pressure.external)
         checks["bath_pressure_ratio"] =
             bath_check(*scene.pressure.external, from_row(series.column("pressure"), first));
@@ -288,8 +292,9 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
                 wall_pressure_check(group, walls, with_force_moment(scene, series, first, stress),
                                     from_row(series.column(group.column), first));
     if (in_equilibrium && all_alike(rods) && !walls.any() && !has_torques(scene))
-        checks["collision_stress_ratio"] = collision_stress_ratio_check(
-            collision, order, from_row(series.column("Z"), first), rods.length.front() / rods.diameter.front());
+        checks["collision_stress_ratio"] =
+            collision_stress_ratio_check(collision, order, from_row(series.column("Z"), first),
+                                         rods.length.front() / rods.diameter.front(), dimensions);
     const bool turns = std::any_of(rods.length.begin(), rods.length.end(), [](double length) { return length > 0.0; });
     if (flows(scene) && !oscillates(scene) && turns && thermal && !springs && !ramped) {
         checks["torque_ratio"] = torque_ratio_check(series, first);

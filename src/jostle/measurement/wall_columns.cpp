@@ -6,6 +6,7 @@
 
 #include "jostle/measurement/stress_columns.hpp"
 #include "jostle/measurement/stress_ratio_checks.hpp"
+#include "jostle/scene/scene_box.hpp"
 #include "jostle/scene/scene_walls.hpp"
 #include "jostle/scene/units.hpp"
 
@@ -38,7 +39,7 @@ double pressure_on(const WallGroup& group, const RowState& row) {
 /// The stress along the normal of the walls: of a tube its mean over all directions across, of a sphere over all.
 double normal_stress(const WallGroup& group, const Walls& walls, const Mat3& stress) {
     if (group.first != container_number) return stress.m[4 * (group.first / 2)];
-    if (walls.container == Container::sphere) return trace(stress) / 3.0;
+    if (walls.container == Container::sphere) return mean_normal_stress(stress, 3);
     return 0.5 * (trace(stress) - stress.m[4 * static_cast<std::size_t>(walls.axis)]);
 }
 
@@ -58,8 +59,8 @@ std::vector<WallGroup> wall_groups(const Walls& walls) {
 
 void add_wall_columns(const Scene& scene, TableColumns<RowState>& series) {
     const Walls walls = scene_walls(scene);
-    const std::string force = unit_of(scene, dimension::force), stress = unit_of(scene, dimension::stress);
-    for (const Wall& wall : walls_of({{1, 1, 1}, scene.box.periodic, walls}))
+    const std::string force = unit_of(scene, dimension::force), stress = unit_of_stress(scene);
+    for (const Wall& wall : walls_of({{1, 1, 1}, box_periodic(scene), walls}))
         series.columns.push_back(
             {{force_column(wall), force, "F_w",
               fmt::format("sum of the contact forces on the wall {}, {}", name_of(wall), mean_of_steps), sign},

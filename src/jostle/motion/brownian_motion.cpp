@@ -16,7 +16,7 @@ constexpr double automatic_rms_step = 0.03, advised_rms_step = 0.1;
 
 }  // namespace
 
-BrownianMotion::BrownianMotion(double kT) : kT_(kT) {
+BrownianMotion::BrownianMotion(double kT, int dimensions) : kT_(kT), dimensions_(dimensions) {
     require_value(std::isfinite(kT) && kT >= 0.0, "fluid.kT", kT, "is no thermal energy", ">= 0, finite");
 }
 
@@ -37,19 +37,17 @@ std::vector<StepLimit> BrownianMotion::step_limits(const Rods& rods, const Mobil
              .what = "the fastest rod diffuses, in the root mean square per axis,",
              .unit = "D",
              .remedy = "",
-             .rate = 2.0 * fastest_diffusion(kT_, mobility, rods.size()),
+             .rate = 2.0 * fastest_diffusion(kT_, mobility, rods.size(), dimensions_),
              .scale = *std::min_element(rods.diameter.begin(), rods.diameter.end()),
              .diffusive = true,
              .automatic = automatic_rms_step,
              .advised = advised_rms_step}};
 }
 
-double fastest_diffusion(double kT, const MobilityOperator& mobility, std::size_t rod_count) {
+double fastest_diffusion(double kT, const MobilityOperator& mobility, std::size_t rod_count, int dimensions) {
     double fastest = 0.0;
-    for (std::size_t i = 0; i < rod_count; ++i) {
-        const RodMobility rod = mobility.of_rod(i);
-        fastest = std::max(fastest, kT * (rod.parallel + 2.0 * rod.perpendicular) / 3.0);
-    }
+    for (std::size_t i = 0; i < rod_count; ++i)
+        fastest = std::max(fastest, translational_diffusion(kT, mobility.of_rod(i), dimensions));
     return fastest;
 }
 

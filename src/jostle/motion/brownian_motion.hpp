@@ -10,8 +10,8 @@ namespace jostle {
 /// xi are standard normal numbers, a function of (seed, step, id) alone (Stream::brownian).
 class BrownianMotion final : public Motion {
 public:
-    /// kT >= 0 (energy), else InputError (key "fluid.kT").
-    explicit BrownianMotion(double kT);
+    /// kT >= 0 (energy), else InputError (key "fluid.kT"). `dimensions` of the box that rods diffuse in.
+    explicit BrownianMotion(double kT, int dimensions = 3);
 
     void add_velocities(Velocities& known, const Rods& rods, const MobilityOperator& mobility,
                         const StepContext& context) const override;
@@ -24,9 +24,10 @@ public:
 
 private:
     double kT_;
+    int dimensions_;
 };
 
-/// D_t of the fastest of the first `rod_count` rods, kT (parallel + 2 perpendicular)/3.
-double fastest_diffusion(double kT, const MobilityOperator& mobility, std::size_t rod_count);
+/// D_t of the fastest of the first `rod_count` rods.
+double fastest_diffusion(double kT, const MobilityOperator& mobility, std::size_t rod_count, int dimensions);
 
 }  // namespace jostle

@@ -22,8 +22,8 @@ constexpr double farthest_swim = 0.5;
 }  // namespace
 
 SelfPropulsion::SelfPropulsion(const Swimming& swimming)
-    : swimming_(swimming), tumbles_(swimming.tumble_rate, swimming.tumble_time) {
-    const auto& [speed, deviation, tumble_rate, tumble_time, reversal_rate] = swimming_;
+    : swimming_(swimming), tumbles_(swimming.tumble_rate, swimming.tumble_time, swimming.dimensions) {
+    const auto& [speed, deviation, tumble_rate, tumble_time, reversal_rate, dimensions] = swimming_;
     require_value(std::isfinite(speed), "motion.self_propulsion", speed, "is no speed", "any finite number");
     require_value(std::isfinite(deviation) && deviation >= 0.0, "motion.self_propulsion_deviation", deviation,
                   "is no standard deviation", ">= 0, finite");

@@ -13,6 +13,7 @@ struct Swimming {
     double tumble_rate = 0.0;    ///< (1/time)
     double tumble_time = 0.0;    ///< that a tumble takes (time)
     double reversal_rate = 0.0;  ///< (1/time)
+    int dimensions = 3;          ///< of the box that they swim in
 };
 
 /// Every rod swims along its axis n: U = U_i n (theory, eq. 2.1); it may tumble and turn round (theory, section 2.6).

@@ -51,6 +51,11 @@ Vec3 rotation_vector(Quaternion q) {
     return std::ldexp(angle_over_sine, halvings + 1) * q.imaginary;
 }
 
+/// In the plane: by any angle up to pi, round z.
+Vec3 random_turn(const RandomKey& key) {
+    return {0.0, 0.0, std::numbers::pi * (2.0 * uniform4(key, 0)[0] - 1.0)};
+}
+
 /// Steps (numbers within a window of so many) in which a Poisson process has events: calls `visit` for each, ascending.
 template <class Visit>
 void for_each_event(const RandomKey& key, double events_per_step, std::uint64_t steps, Visit&& visit) {
@@ -65,7 +70,8 @@ void for_each_event(const RandomKey& key, double events_per_step, std::uint64_t 
 
 }  // namespace
 
-Tumbles::Tumbles(double rate, double duration) : rate_(rate), duration_(duration) {
+Tumbles::Tumbles(double rate, double duration, int dimensions)
+    : rate_(rate), duration_(duration), dimensions_(dimensions) {
     require_value(std::isfinite(rate) && rate >= 0.0, "motion.tumble_rate", rate, "is no rate", ">= 0, finite");
     require_value(std::isfinite(duration) && duration >= 0.0, "motion.tumble_time", duration, "is no time",
                   ">= 0, finite");
@@ -116,7 +122,8 @@ std::optional<Vec3> Tumbles::angular_velocity(std::uint64_t id, const StepContex
     const std::uint64_t duration = steps(context.time_step);
     const auto began = beginning(id, context, duration);
     if (!began) return std::nullopt;
-    const Vec3 rotation = rotation_vector(random_quaternion({context.seed, *began, Stream::tumble_rotation, id}));
+    const RandomKey key{context.seed, *began, Stream::tumble_rotation, id};
+    const Vec3 rotation = dimensions_ == 2 ? random_turn(key) : rotation_vector(random_quaternion(key));
     return (1.0 / (static_cast<double>(duration) * context.time_step)) * rotation;
 }
 

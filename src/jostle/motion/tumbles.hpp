@@ -17,8 +17,8 @@ namespace jostle {
 class Tumbles {
 public:
     /// rate (1/time), duration (time), both at least 0 and finite, and rate duration at most `largest_share`, else
-    /// InputError.
-    Tumbles(double rate, double duration);
+    /// InputError. In two dimensions rods turn round z.
+    Tumbles(double rate, double duration, int dimensions = 3);
 
     /// rate times duration, at most: rods that tumble for all but exp(-10) of the time do not swim.
     static constexpr double largest_share = 10.0;
@@ -36,6 +36,7 @@ private:
     std::optional<std::uint64_t> beginning(std::uint64_t id, const StepContext& context, std::uint64_t duration) const;
 
     double rate_, duration_;
+    int dimensions_;
 };
 
 }  // namespace jostle

@@ -10,6 +10,16 @@
 
 namespace jostle {
 
+/// Of a box with these edges: 2 if it is flat.
+constexpr int dimensions_of(const Vec3& edges) {
+    return edges.z == 0.0 ? 2 : 3;
+}
+
+/// Their product. In two dimensions the area.
+constexpr double volume_of(const Vec3& edges) {
+    return dimensions_of(edges) == 2 ? edges.x * edges.y : edges.x * edges.y * edges.z;
+}
+
 /// A rectangular box with one corner at the origin, periodic, open or closed by walls along each direction. A box of
 /// another size is another box.
 ///
@@ -17,10 +27,13 @@ namespace jostle {
 /// `offset`, two by twice as much.
 ///
 /// Open means without walls: rods may leave; the edge then only defines the volume that phi and n refer to.
+///
+/// A box whose edge along z is 0 is flat: it has two dimensions, x and y. All centres and axes are in the plane z = 0,
+/// where nothing moves them out of it, and what is a volume elsewhere is an area.
 class Box {
 public:
     constexpr Box() = default;
-    /// It is not to be periodic across walls.
+    /// It is not to be periodic across walls, nor along an edge of 0.
     constexpr Box(const Vec3& edges, const std::array<bool, 3>& periodic = {true, true, true}, const Walls& walls = {})
         : edges_(edges), periodic_(periodic), walls_(walls) {}
 
@@ -31,10 +44,12 @@ public:
     const std::shared_ptr<const Rods>& fixed_rods() const { return fixed_rods_; }
     /// At most half the edge along x, to either side: beyond, the next copy is nearer.
     double offset() const { return offset_; }
-    bool is_periodic() const { return periodic_[0] && periodic_[1] && periodic_[2]; }
+    /// Along every direction that it has.
+    bool is_periodic() const { return periodic_[0] && periodic_[1] && (periodic_[2] || dimensions() == 2); }
+    int dimensions() const { return dimensions_of(edges_); }
 
-    /// Between the walls.
-    double volume() const { return share_of_box(walls_.container) * (edges_.x * edges_.y * edges_.z); }
+    /// Between the walls. In two dimensions the area.
+    double volume() const { return share_of_box(walls_.container) * volume_of(edges_); }
     double longest_edge() const { return std::max({edges_.x, edges_.y, edges_.z}); }
 
     /// Whether nothing but rods that move pushes rods in it.

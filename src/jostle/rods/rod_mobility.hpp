@@ -14,6 +14,11 @@ struct RodMobility {
     double rotational = 0.0;     ///< angular velocity per torque across the axis
 };
 
+/// D_t, the mean over all directions: kT (parallel + 2 perpendicular)/3, in the plane kT (parallel + perpendicular)/2.
+inline double translational_diffusion(double kT, const RodMobility& rod, int dimensions) {
+    return kT * (rod.parallel + (dimensions - 1) * rod.perpendicular) / dimensions;
+}
+
 /// A rod as forces find it: its axis n, and its own mobility.
 struct MobileRod {
     Vec3 axis;

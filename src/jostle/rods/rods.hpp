@@ -57,10 +57,11 @@ inline double farthest_displacement(const Vec3& centre, const Vec3& axis, double
                      half_length * (half_length * squared_norm(axis) + 2.0 * std::fabs(dot(centre, axis))));
 }
 
-/// Volume of a spherocylinder, pi (L D^2/4 + D^3/6).
-double rod_volume(double length, double diameter);
+/// Volume of a spherocylinder, pi (L D^2/4 + D^3/6). In two dimensions the area of it that the plane cuts, L D + pi
+/// D^2/4.
+double rod_volume(double length, double diameter, int dimensions = 3);
 
-/// Sum of the rods' volumes.
-double total_volume(const Rods& rods);
+/// Sum of the rods' volumes, or areas.
+double total_volume(const Rods& rods, int dimensions = 3);
 
 }  // namespace jostle

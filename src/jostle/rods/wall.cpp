@@ -58,8 +58,12 @@ double area_of(const Wall& wall, const Box& box) {
     const Vec3& edges = box.edges();
     const double r = wall.radius;
     if (wall.shape == Wall::Shape::sphere) return 4.0 * std::numbers::pi * r * r;
-    if (wall.shape == Wall::Shape::tube) return 2.0 * std::numbers::pi * r * edges[box.walls().axis];
+    if (wall.shape == Wall::Shape::tube) {
+        const double around = 2.0 * std::numbers::pi * r;
+        return box.dimensions() == 2 ? around : around * edges[box.walls().axis];
+    }
     const int k = static_cast<int>(wall.number) / 2;
+    if (box.dimensions() == 2) return edges[1 - k];
     const bool cap = box.walls().container == Container::tube;  // of a tube
     return cap ? 0.25 * std::numbers::pi * edges[(k + 1) % 3] * edges[(k + 1) % 3]
                : edges[(k + 1) % 3] * edges[(k + 2) % 3];

@@ -34,7 +34,7 @@ inline constexpr std::uint32_t container_number = 6, max_walls = 7;
 /// The walls of a box, in the order of their numbers.
 std::vector<Wall> walls_of(const Box& box);
 
-/// Area of one wall of the box.
+/// Area of one wall of the box; in two dimensions its length.
 double area_of(const Wall& wall, const Box& box);
 
 /// "x lower", ..., "z upper", "sphere" or "tube".

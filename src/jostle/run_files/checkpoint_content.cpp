@@ -44,7 +44,8 @@ bool is_zero_or_positive(double value) {
 }
 
 void check_box(const Box& box, ContentCheck& check) {
-    for (int k = 0; k < 3; ++k)
+    check.require(box.dimensions() == 3 || !box.periodic()[2], "periodic along z in a flat box", 1.0);
+    for (int k = 0; k < box.dimensions(); ++k)
         check.require(within(box.edges()[k], Range::smallest, Range::largest), "edge of the box", box.edges()[k]);
     check.require(within(std::fabs(box.offset()), 0.0, box.edges().x), "offset of the box", box.offset());
 }
@@ -57,6 +58,10 @@ void check_rods(const Rods& rods, const Box& box, ContentCheck& check) {
             const double lower = wrapped ? -rounding * box.edges()[k] : -farthest;
             const double upper = wrapped ? (1.0 + rounding) * box.edges()[k] : farthest;
             check.require_of_rod(within(rods.centre[i][k], lower, upper), "centre", i, rods.centre[i][k]);
+        }
+        if (box.dimensions() == 2) {
+            check.require_of_rod(rods.centre[i].z == 0.0, "z in a flat box", i, rods.centre[i].z);
+            check.require_of_rod(rods.axis[i].z == 0.0, "nz in a flat box", i, rods.axis[i].z);
         }
         const double squared = squared_norm(rods.axis[i]);
         check.require_of_rod(within(squared, 1.0 - axis_tolerance, 1.0 + axis_tolerance), "|axis|^2", i, squared);

@@ -94,7 +94,8 @@ std::vector<Mat3> orientation_stress_of_rods(const TrajectoryFrame& frame, doubl
     std::vector<Mat3> stress(frame.size());
     for (std::size_t i = 0; i < stress.size(); ++i) {
         const auto& [x, y, z] = frame.axis[i];
-        stress[i] = orientation_stress_of_rod({x, y, z}, frame.length[i], frame.diameter[i], kT);
+        stress[i] =
+            orientation_stress_of_rod({x, y, z}, frame.length[i], frame.diameter[i], kT, frame.box.dimensions());
     }
     return stress;
 }

@@ -38,7 +38,9 @@ struct Scene {
     } units;
 
     struct BoxTable {
-        std::optional<double> volume_fraction;  // either this, with `shape` ...
+        std::uint64_t dimensions = 3;           // 2: a monolayer in the plane z = 0; no vector has a part along z then
+        std::optional<double> volume_fraction;  // either this, in two dimensions ...
+        std::optional<double> area_fraction;    // ... this, with `shape` ...
         Vec3 shape{1, 1, 1};                    // ratio of the edges
         std::optional<Vec3> edges;              // ... or the edges
         std::array<bool, 3> periodic{true, true, true};
@@ -112,7 +114,8 @@ struct Scene {
     struct ScheduleTable {
         Ramp<double> self_propulsion, kT;  // from motion.self_propulsion, fluid.kT
         Ramp<Vec3> edges;                  // of the box: either this ...
-        Ramp<double> volume_fraction;      // ... or this, with the shape that the box has
+        Ramp<double> volume_fraction;      // ... or this, with the shape that the box has, ...
+        Ramp<double> area_fraction;        // ... or in two dimensions this
         bool operator==(const ScheduleTable&) const = default;
     } schedule;
 
@@ -172,6 +175,19 @@ struct Scene {
 
     bool operator==(const Scene&) const = default;
 };
+
+/// 2 or 3.
+inline int dimensions_of(const Scene& scene) {
+    return scene.box.dimensions == 2 ? 2 : 3;
+}
+
+/// In two dimensions: what vectors that are left out would say of z.
+inline void leave_out_z(Scene& scene) {
+    if (dimensions_of(scene) == 3) return;
+    scene.box.shape.z = 0.0;
+    scene.box.periodic[2] = false;
+    if (scene.forces.alignment_axis == Vec3{0, 0, 1}) scene.forces.alignment_axis = {1, 0, 0};
+}
 
 /// Whether the rods come from outside, and the scene tells only what they are measured by.
 inline bool rods_are_given(const Scene& scene) {

@@ -26,6 +26,8 @@ namespace dimension {
 inline constexpr Dimension none{0, 0, 0}, length{1, 0, 0}, time{0, 1, 0}, force{0, 0, 1}, volume{3, 0, 0};
 inline constexpr Dimension speed{1, -1, 0}, rate{0, -1, 0}, number_density{-3, 0, 0};
 inline constexpr Dimension energy{1, 0, 1}, stress{-2, 0, 1}, viscosity{-2, 1, 1};
+// In two dimensions a stress is a force over a length, and a density a number over an area.
+inline constexpr Dimension stress_in_plane{-1, 0, 1}, number_density_in_plane{-2, 0, 0};
 }  // namespace dimension
 
 /// What the table below says of a key. `may_change`: a run that goes on may have another value, for it is no part of
@@ -64,8 +66,10 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     namespace dim = dimension;
     visit("", "title", scene.title, Plain{.may_change = true});
     visit("", "seed", scene.seed, Count{});
-    visit("units", "system", scene.units.system, Plain{});  // before every number, which may carry a unit
+    visit("units", "system", scene.units.system, Plain{});          // before every number, which may carry a unit
+    visit("box", "dimensions", scene.box.dimensions, Count{2, 3});  // before every vector
     visit("box", "volume_fraction", scene.box.volume_fraction, Quantity{dim::none, {Range::smallest, 1.0, false}});
+    visit("box", "area_fraction", scene.box.area_fraction, Quantity{dim::none, {Range::smallest, 1.0, false}});
     visit("box", "shape", scene.box.shape, Quantity{dim::none, {1e-6, 1e6}});
     visit("box", "edges", scene.box.edges, Quantity{dim::length, positive});
     visit("box", "periodic", scene.box.periodic, Plain{});
@@ -120,6 +124,8 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("schedule", "kT", scene.schedule.kT, Quantity{dim::energy, zero_or_positive});
     visit("schedule", "edges", scene.schedule.edges, Quantity{dim::length, positive});
     visit("schedule", "volume_fraction", scene.schedule.volume_fraction,
+          Quantity{dim::none, {Range::smallest, 1.0, false}});
+    visit("schedule", "area_fraction", scene.schedule.area_fraction,
           Quantity{dim::none, {Range::smallest, 1.0, false}});
     visit("pressure", "external", scene.pressure.external, Quantity{dim::stress, positive});
     visit("pressure", "coupling", scene.pressure.coupling, Plain{});

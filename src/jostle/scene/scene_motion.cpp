@@ -24,8 +24,9 @@ double thermal_energy(const Scene& scene) {
 
 Swimming swimming_of(const Scene& scene) {
     const Scene::MotionTable& motion = scene.motion;
-    Swimming swimming = {motion.self_propulsion, motion.self_propulsion_deviation, motion.tumble_rate, 0.0,
-                         motion.reversal_rate};
+    Swimming swimming = {motion.self_propulsion, motion.self_propulsion_deviation,
+                         motion.tumble_rate,     0.0,
+                         motion.reversal_rate,   dimensions_of(scene)};
     if (motion.tumble_rate > 0.0)
         swimming.tumble_time = motion.tumble_time.value_or(automatic_tumble_share / motion.tumble_rate);
     return swimming;
@@ -33,7 +34,8 @@ Swimming swimming_of(const Scene& scene) {
 
 std::vector<std::unique_ptr<Motion>> motions_of(const Scene& scene) {
     std::vector<std::unique_ptr<Motion>> motions;
-    if (thermal_energy(scene) > 0.0) motions.push_back(std::make_unique<BrownianMotion>(thermal_energy(scene)));
+    if (thermal_energy(scene) > 0.0)
+        motions.push_back(std::make_unique<BrownianMotion>(thermal_energy(scene), dimensions_of(scene)));
     if (swims(scene)) motions.push_back(std::make_unique<SelfPropulsion>(swimming_of(scene)));
     if (const Vec3& force = scene.forces.on_rods; force != Vec3{})
         motions.push_back(std::make_unique<ForceOnRods>(force, drifts(scene)));
@@ -67,9 +69,10 @@ bool keeps_equilibrium(const Scene& scene) {
 double persistence_time(const Scene& scene, const MobilityOperator& mobility, std::size_t rod_count) {
     const double kT = thermal_energy(scene);
     const double turns = scene.motion.tumble_rate + 2.0 * scene.motion.reversal_rate;
+    const double angles = dimensions_of(scene) - 1;  // by which the axis may turn
     double longest = 0.0;
     for (std::size_t i = 0; i < rod_count; ++i)
-        longest = std::max(longest, 1.0 / (2.0 * kT * mobility.of_rod(i).rotational + turns));
+        longest = std::max(longest, 1.0 / (angles * kT * mobility.of_rod(i).rotational + turns));
     return longest;
 }
 

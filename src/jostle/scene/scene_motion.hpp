@@ -34,7 +34,8 @@ std::vector<std::unique_ptr<Motion>> motions_of(const Scene& scene);
 /// Whether the rods come to equilibrium, but for springs: they are thermal, none grows, and no motion drives them.
 bool keeps_equilibrium(const Scene& scene);
 
-/// How long a free swimmer keeps its direction, 1/(2 D_R + tumble rate + 2 reversal rate): of the first `rod_count`
+/// How long a free swimmer keeps its direction, 1/(2 D_R + tumble rate + 2 reversal rate), in the plane
+/// with D_R for 2 D_R: of the first `rod_count`
 /// rods the one that does so longest; infinite without rotation, tumbles and reversals.
 double persistence_time(const Scene& scene, const MobilityOperator& mobility, std::size_t rod_count);
 

@@ -34,6 +34,7 @@ std::string describe(const Range& range, double value) {
 /// Range check of one key, by the type of its member.
 struct RangeCheck {
     std::string key;
+    int dimensions;  ///< of vectors
 
     void check(double value, const Range& range) const {
         if (range.contains(value)) return;
@@ -52,7 +53,7 @@ struct RangeCheck {
         if (value) check(*value, quantity.range);
     }
     void operator()(const Vec3& value, const Quantity& quantity) const {
-        for (int k = 0; k < 3; ++k) check(value[k], quantity.range);
+        for (int k = 0; k < dimensions; ++k) check(value[k], quantity.range);
     }
     void operator()(const std::optional<Vec3>& value, const Quantity& quantity) const {
         if (value) (*this)(*value, quantity);
@@ -91,7 +92,7 @@ void require_ranges(const Scene& scene) {
     for_each_key(scene, [&](std::string_view table, std::string_view name, const auto& member, const auto& spec) {
         const std::string key = full_key(table, name);
         if (std::any_of(unused.begin(), unused.end(), [&](const UnusedKey& entry) { return entry.key == key; })) return;
-        mistakes.look([&] { RangeCheck{key}(member, spec); });
+        mistakes.look([&] { RangeCheck{key, dimensions_of(scene)}(member, spec); });
     });
     mistakes.refuse_any();
 }

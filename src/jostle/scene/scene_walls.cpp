@@ -17,21 +17,28 @@ namespace {
 
 using Three = std::array<bool, 3>;
 
+/// In the plane it is a disc.
+int axis_of_tube(const Scene& scene) {
+    return dimensions_of(scene) == 2 ? 2 : static_cast<int>(scene.walls.axis);
+}
+
 void check_periodic(const Scene& scene) {
     const Three ends = walled_directions(scene);
-    Three open = scene.box.periodic;
+    const Three periodic = box_periodic(scene);
+    Three open = periodic;
     for (std::size_t k = 0; k < 3; ++k) open[k] = open[k] && !ends[k];
-    if (open == scene.box.periodic) return;
-    refuse("box.periodic", text(scene.box.periodic), "has periodic directions that end at walls",
-           "periodic = " + text(open), "A wall ends the box in the directions that it stands across");
+    if (open == periodic) return;
+    refuse("box.periodic", text(periodic), "has periodic directions that end at walls", "periodic = " + text(open),
+           "A wall ends the box in the directions that it stands across");
 }
 
 void check_container(const Scene& scene, double rods_volume) {
     const Container container = scene.walls.container;
-    if (container == Container::none) return;
+    const bool no_such_wall = container == Container::sphere && dimensions_of(scene) == 2;  // refused anyhow
+    if (container == Container::none || no_such_wall) return;
     const auto word = std::string(word_of(container));
     Three faces = scene.walls.faces;
-    const auto axis = static_cast<std::size_t>(scene.walls.axis);
+    const auto axis = static_cast<std::size_t>(axis_of_tube(scene));
     for (std::size_t k = 0; k < 3; ++k) faces[k] = faces[k] && container == Container::tube && k == axis;
     if (faces != scene.walls.faces)
         refuse("walls.faces", text(scene.walls.faces),
@@ -66,7 +73,8 @@ double longest_between(const Scene& scene, const Vec3& room) {
         case Container::sphere:
             return room.x;
         case Container::tube: {
-            const int k = static_cast<int>(scene.walls.axis);
+            const int k = axis_of_tube(scene);
+            if (dimensions_of(scene) == 2) return room[(k + 1) % 3];
             return std::hypot(room[k], room[(k + 1) % 3]);
         }
         default:
@@ -81,8 +89,8 @@ void check_room_of_rods(const Scene& scene, double rods_volume, double longest, 
             if (scene.walls.faces[static_cast<std::size_t>(k)]) edges[k] = std::min(edges[k], point.value[k]);
     const Vec3 room = room_of_ends(scene, edges, thickest);
     const bool given = scene.box.edges.has_value();
-    const std::string key = given ? "box.edges" : "box.volume_fraction";
-    const std::string value = given ? text(edges) : text(*scene.box.volume_fraction);
+    const std::string key = given ? "box.edges" : fraction_key(scene);
+    const std::string value = given ? text(edges) : text(*given_fraction(scene));
     for (int k = 0; k < 3; ++k)
         if (!(room[k] > 0.0))
             refuse(key, value,
@@ -109,14 +117,14 @@ void check_room_of_rods(const Scene& scene, double rods_volume, double longest, 
 }  // namespace
 
 Walls scene_walls(const Scene& scene) {
-    return {scene.walls.faces, scene.walls.container, static_cast<int>(scene.walls.axis), scene.walls.torque};
+    return {scene.walls.faces, scene.walls.container, axis_of_tube(scene), scene.walls.torque};
 }
 
 Three walled_directions(const Scene& scene) {
     Three ends = scene.walls.faces;
     for (std::size_t k = 0; k < 3; ++k) {
         const bool along_tube =
-            scene.walls.container == Container::tube && k == static_cast<std::size_t>(scene.walls.axis);
+            scene.walls.container == Container::tube && k == static_cast<std::size_t>(axis_of_tube(scene));
         ends[k] = ends[k] || (scene.walls.container != Container::none && !along_tube);
     }
     return ends;

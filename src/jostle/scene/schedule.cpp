@@ -16,7 +16,7 @@ template <class Visitor>
 void for_all_ramps(const Scene& scene, Visitor&& visit) {
     for_each_ramp(scene, [&](const char* name, const auto& ramp, const auto&) { visit(name, ramp); });
     visit("edges", scene.schedule.edges);
-    visit("volume_fraction", scene.schedule.volume_fraction);
+    visit(dimensions_of(scene) == 2 ? "area_fraction" : "volume_fraction", ramp_of_fraction(scene));
 }
 
 }  // namespace
@@ -26,11 +26,16 @@ bool has_schedule(const Scene& scene) {
 }
 
 bool squeezes_box(const Scene& scene) {
-    return !scene.schedule.edges.empty() || !scene.schedule.volume_fraction.empty();
+    return !scene.schedule.edges.empty() || !ramp_of_fraction(scene).empty();
+}
+
+const Ramp<double>& ramp_of_fraction(const Scene& scene) {
+    return dimensions_of(scene) == 2 ? scene.schedule.area_fraction : scene.schedule.volume_fraction;
 }
 
 std::string key_of_box_ramp(const Scene& scene) {
-    return scene.schedule.edges.empty() ? "schedule.volume_fraction" : "schedule.edges";
+    if (!scene.schedule.edges.empty()) return "schedule.edges";
+    return dimensions_of(scene) == 2 ? "schedule.area_fraction" : "schedule.volume_fraction";
 }
 
 std::string names_of_schedule(const Scene& scene) {
@@ -83,8 +88,8 @@ Ramp<Vec3> ramp_of_edges(const Scene& scene, double rods_volume) {
         at_point.box.shape = *scene.box.edges;
         at_point.box.edges.reset();
     }
-    for (const auto& [time, fraction] : scene.schedule.volume_fraction) {
-        at_point.box.volume_fraction = fraction;
+    for (const auto& [time, fraction] : ramp_of_fraction(scene)) {
+        (dimensions_of(scene) == 2 ? at_point.box.area_fraction : at_point.box.volume_fraction) = fraction;
         ramp.push_back({time, box_edges(at_point, rods_volume)});
     }
     return ramp;
@@ -92,7 +97,7 @@ Ramp<Vec3> ramp_of_edges(const Scene& scene, double rods_volume) {
 
 double volume_of_all(const Scene& scene, const Rods& rods) {
     const bool stands_for_all = rods.size() == 1 && scene.rods.count > 1 && !rods_are_given(scene);
-    return stands_for_all ? rods_volume(scene) : total_volume(rods);
+    return stands_for_all ? rods_volume(scene) : total_volume(rods, dimensions_of(scene));
 }
 
 double expected_equilibration(const Scene& scene) {

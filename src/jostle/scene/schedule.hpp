@@ -22,6 +22,8 @@ void for_each_ramp(AnyScene& scene, Visitor&& visit) {
 bool has_schedule(const Scene& scene);
 /// Whether the box changes.
 bool squeezes_box(const Scene& scene);
+/// schedule.volume_fraction; in two dimensions schedule.area_fraction.
+const Ramp<double>& ramp_of_fraction(const Scene& scene);
 /// The full key of what changes it.
 std::string key_of_box_ramp(const Scene& scene);
 /// The full keys of what is ramped, as "schedule.kT, schedule.edges".

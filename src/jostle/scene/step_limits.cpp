@@ -139,7 +139,7 @@ std::vector<StepLimit> squeeze_limits(const Scene& scene, const Rods& rods) {
     RampPoint<Vec3> from{0.0, box_edges(scene, volume)};
     double strain_rate = 0.0, slenderest = 0.0, of_planes = 0.0;
     for (const RampPoint<Vec3>& to : ramp_of_edges(scene, volume)) {
-        for (int k = 0; k < 3; ++k) {
+        for (int k = 0; k < dimensions_of(to.value); ++k) {
             const double rate = (from.value[k] - to.value[k]) / (to.time - from.time);
             double& fastest = scene.walls.faces[static_cast<std::size_t>(k)] ? of_planes : strain_rate;
             fastest = std::max(fastest, &fastest == &of_planes ? rate : rate / to.value[k]);
@@ -223,9 +223,10 @@ std::vector<StepLimit> wall_limits(const Scene& scene, const Box& box, const Rod
     if (!box.walls().any() || !scene.contact.brownian_correction || kT == 0.0) return {};
     double narrowest = INFINITY;
     for (int k = 0; k < 3; ++k)
-        if (!box.periodic()[static_cast<std::size_t>(k)]) narrowest = std::min(narrowest, box.edges()[k]);
-    StepLimit limit = {.key = scene.box.edges ? "box.edges" : "box.volume_fraction",
-                       .value = scene.box.edges ? text(box.edges()) : text(*scene.box.volume_fraction),
+        if (!box.periodic()[static_cast<std::size_t>(k)] && k < box.dimensions())
+            narrowest = std::min(narrowest, box.edges()[k]);
+    StepLimit limit = {.key = scene.box.edges ? "box.edges" : fraction_key(scene),
+                       .value = scene.box.edges ? text(box.edges()) : text(*given_fraction(scene)),
                        .harm = "leaves too little room between walls",
                        .what = "noise moves the end of a rod, over the room between opposite walls less a diameter, by",
                        .unit = "",

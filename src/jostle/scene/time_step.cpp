@@ -41,7 +41,7 @@ double time_step(const Scene& scene, const Mobility& model, const Box& box, cons
     if (scene.time.rms_step) {
         const double length = *scene.time.rms_step * smallest_diameter(scene, rods);
         const double kT = thermal_energy(scene_at_its_hardest(scene));
-        return length * length / (2.0 * fastest_diffusion(kT, *model.at(rods, box), rods.size()));
+        return length * length / (2.0 * fastest_diffusion(kT, *model.at(rods, box), rods.size(), box.dimensions()));
     }
     return automatic_step(scene.growth.rate > 0.0 ? lasting_step_limits(scene, model, box)
                                                   : step_limits(scene, model, box, rods, springs));

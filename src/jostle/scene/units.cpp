@@ -182,6 +182,14 @@ std::string unit_of(const Scene& scene, Dimension d) {
     return product({{"kT", d.force - d.time}, {length, d.length - d.force + 3 * d.time}, {viscosity, d.time}});
 }
 
+std::string unit_of_stress(const Scene& scene) {
+    return unit_of(scene, dimensions_of(scene) == 2 ? dimension::stress_in_plane : dimension::stress);
+}
+
+std::string unit_of_number_density(const Scene& scene) {
+    return unit_of(scene, dimensions_of(scene) == 2 ? dimension::number_density_in_plane : dimension::number_density);
+}
+
 std::string example_quantity(Dimension d) {
     if (d == dimension::length) return "300 nm";
     if (d == dimension::time) return "35.1 s";

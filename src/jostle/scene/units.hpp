@@ -24,6 +24,9 @@ double parse_quantity(std::string_view text, Dimension expected);
 /// then is called "length_unit" or "viscosity_unit"; where kT is not 1, the unit of time is called "time_unit", and
 /// takes the place of that of energy.
 std::string unit_of(const Scene& scene, Dimension dimension);
+/// Of stresses and of number densities: in two dimensions force per length, and number per area.
+std::string unit_of_stress(const Scene& scene);
+std::string unit_of_number_density(const Scene& scene);
 
 /// A unit as people write it: a number in the unit of a file, times the factor, is in this one.
 struct ReadableUnit {

@@ -15,6 +15,12 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
     std::vector<UnusedKey> unused;
     const StartKind start = scene.rods.start;
     const std::string with = fmt::format("is not used with rods.start = \"{}\"", word_of(start));
+    const bool flat = dimensions_of(scene) == 2;
+    for (const char* table : {"box.", "schedule."})
+        unused.push_back({std::string(table) + (flat ? "volume_fraction" : "area_fraction"),
+                          flat ? "is not used with box.dimensions = 2: what rods fill is an area"
+                               : "is not used without box.dimensions = 2",
+                          flat ? "Write area_fraction" : "Write volume_fraction, or set box.dimensions = 2"});
     if (scene.box.edges)
         unused.push_back({"box.shape", "is not used with box.edges, which give the shape", "Remove shape or edges"});
     if (start == StartKind::file)
@@ -31,7 +37,9 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
     if (start != StartKind::file) unused.push_back({"rods.file", with, "Set start = \"file\", or remove file"});
     if (start != StartKind::aligned && start != StartKind::lattice)
         unused.push_back({"rods.axis", with, "Set start = \"aligned\", or remove axis"});
-    if (scene.walls.container != Container::tube)
+    if (flat)
+        unused.push_back({"walls.axis", "is not used with box.dimensions = 2: a tube is a disc", "Remove axis"});
+    else if (scene.walls.container != Container::tube)
         unused.push_back({"walls.axis", "is not used without a tube", "Set container = \"tube\", or remove axis"});
     if (!scene_walls(scene).any())
         unused.push_back({"walls.torque", "is not used without walls", "Set faces or container, or remove torque"});
@@ -96,7 +104,10 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
 }
 
 void refuse_unused_keys(const Scene& scene) {
-    const auto values = key_values(scene), defaults = key_values(Scene{});
+    Scene untouched;
+    untouched.box.dimensions = scene.box.dimensions;
+    leave_out_z(untouched);
+    const auto values = key_values(scene), defaults = key_values(untouched);
     Mistakes mistakes;
     for (const UnusedKey& unused : unused_keys(scene))
         for (std::size_t k = 0; k < values.size(); ++k)

@@ -34,6 +34,7 @@ void check_sizes(const Scene& scene) {
 }
 
 void check_box_of_fluid(const Scene& scene) {
+    if (dimensions_of(scene) == 2) return;  // refused anyhow
     const auto [x, y, z] = scene.box.periodic;
     if (x != y || y != z)
         refuse(

@@ -16,6 +16,7 @@
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_box.hpp"
 #include "jostle/scene/scene_flow.hpp"
+#include "jostle/scene/scene_keys.hpp"
 #include "jostle/scene/scene_mobility.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/scene_ranges.hpp"
@@ -25,6 +26,7 @@
 #include "jostle/scene/time_step.hpp"
 #include "jostle/scene/unused_keys.hpp"
 #include "jostle/scene/validate_fluid.hpp"
+#include "jostle/scene/validate_plane.hpp"
 
 namespace jostle {
 
@@ -42,6 +44,9 @@ void check_start(const Scene& scene) {
     if (scene.rods.start == StartKind::run && scene.rods.run.empty())
         refuse("rods.run", "", "is missing: start = \"run\" takes the rods of another run", "the folder of a run",
                "Add run = \"rods.run\" under [rods]");
+    if (dimensions_of(scene) == 2 && scene.rods.axis.z != 0.0)
+        refuse("rods.axis", text(scene.rods.axis), "points out of the plane of box.dimensions = 2", "two numbers: x, y",
+               "Use [1, 0]");
     if (norm(scene.rods.axis) == 0.0)
         refuse("rods.axis", text(scene.rods.axis), "has no direction", "a vector that is not zero", "Use [1, 0, 0]");
 }
@@ -63,51 +68,54 @@ void check_deviations(const Scene& scene) {
 }
 
 void check_box_given_once(const Scene& scene) {
-    if (scene.box.volume_fraction && scene.box.edges)
-        refuse("box.edges", text(*scene.box.edges),
-               fmt::format("is given beside box.volume_fraction = {}", *scene.box.volume_fraction),
+    const auto& fraction = given_fraction(scene);
+    const char* key = fraction_key(scene);
+    if (fraction && scene.box.edges)
+        refuse("box.edges", text(*scene.box.edges), fmt::format("is given beside {} = {}", key, *fraction),
                "one of the two, not both", "Keep one of them; the other follows from it");
-    if (!scene.box.volume_fraction && !scene.box.edges)
-        refuse("box.volume_fraction", "", "is missing, and so is box.edges: the size of the box is not known",
-               "one of the two", "Add volume_fraction = 0.2 under [box]");
+    if (!fraction && !scene.box.edges)
+        refuse(key, "", "is missing, and so is box.edges: the size of the box is not known", "one of the two",
+               fmt::format("Add {} = 0.2 under [box]", parts_of_key(key).second));
 }
 
 void check_packing(const Scene& scene) {
     const double fraction = volume_fraction(scene);
     const double aspect_ratio = scene.rods.length / scene.rods.diameter;
-    const bool given = scene.box.volume_fraction.has_value();
-    const std::string key = given ? "box.volume_fraction" : "box.edges";
+    const bool given = given_fraction(scene).has_value();
+    const std::string key = given ? fraction_key(scene) : "box.edges", words = fraction_words(scene);
     const std::string value = given ? text(fraction) : text(*scene.box.edges);
-    const std::string volume = given ? "" : fmt::format(" (volume fraction {})", rounded(fraction));
-    const double densest = close_packing(aspect_ratio);
+    const std::string volume = given ? "" : fmt::format(" ({} {})", words, rounded(fraction));
+    const double densest = close_packing(aspect_ratio, dimensions_of(scene));
     if (!(fraction <= densest * (1.0 + 1e-12)))  // edges computed for close packing miss it by rounding
         refuse(key, value,
                fmt::format("cannot be packed{}: the densest packing of rods of L/D = {} fills {}", volume,
                            rounded(aspect_ratio), rounded(densest)),
-               fmt::format("a volume fraction of at most {}", rounded(densest)),
-               given ? "Lower the volume fraction" : "Enlarge the box or use fewer rods");
-    const double limit = random_start_limit(aspect_ratio);
+               fmt::format("{} {} of at most {}", dimensions_of(scene) == 2 ? "an" : "a", words, rounded(densest)),
+               given ? "Lower the " + words : "Enlarge the box or use fewer rods");
+    const double limit = random_start_limit(aspect_ratio, dimensions_of(scene));
     if (scene.rods.start == StartKind::random && fraction > limit)
         refuse(key, value,
                fmt::format("is too dense for a random start{} with rods of L/D = {}", volume, rounded(aspect_ratio)),
-               fmt::format("a volume fraction of at most {}", rounded(limit)),
-               "Use start = \"aligned\" or \"lattice\", or a lower volume fraction");
+               fmt::format("{} {} of at most {}", dimensions_of(scene) == 2 ? "an" : "a", words, rounded(limit)),
+               "Use start = \"aligned\" or \"lattice\", or a lower " + words);
 }
 
 /// Of all that a schedule makes of the box.
 void check_packing_of_schedule(const Scene& scene) {
     if (!squeezes_box(scene)) return;
     const double volume = rods_volume(scene), aspect_ratio = scene.rods.length / scene.rods.diameter;
-    const double densest = close_packing(aspect_ratio);
+    const double densest = close_packing(aspect_ratio, dimensions_of(scene));
+    const char* words = fraction_words(scene);
     for (const auto& [time, edges] : ramp_of_edges(scene, volume)) {
-        const double fraction = volume / (edges.x * edges.y * edges.z);
+        const double fraction = volume / volume_of(edges);
         if (fraction <= densest * (1.0 + 1e-12)) continue;
         refuse(
             key_of_box_ramp(scene), "",
-            fmt::format("cannot be packed at time {}: it makes the volume fraction {}, and the densest packing of rods "
-                        "of L/D = {} fills {}",
-                        time, rounded(fraction), rounded(aspect_ratio), rounded(densest)),
-            fmt::format("a volume fraction of at most {}", rounded(densest)), "Compress less");
+            fmt::format("cannot be packed at time {}: it makes the {} {}, and the densest packing of rods of L/D = {} "
+                        "fills {}",
+                        time, words, rounded(fraction), rounded(aspect_ratio), rounded(densest)),
+            fmt::format("{} {} of at most {}", dimensions_of(scene) == 2 ? "an" : "a", words, rounded(densest)),
+            "Compress less");
     }
 }
 
@@ -130,14 +138,15 @@ bool squeezes_edge(const Scene& scene, int k) {
 
 void check_schedule(const Scene& scene) {
     if (!squeezes_box(scene)) return;
-    if (!scene.schedule.edges.empty() && !scene.schedule.volume_fraction.empty())
-        refuse("schedule.edges", "", "is given beside schedule.volume_fraction", "one of the two, not both",
-               "Keep one of them; the other follows from it");
+    if (!scene.schedule.edges.empty() && !ramp_of_fraction(scene).empty())
+        refuse("schedule.edges", "",
+               fmt::format("is given beside schedule.{}", parts_of_key(fraction_key(scene)).second),
+               "one of the two, not both", "Keep one of them; the other follows from it");
     const std::string key = key_of_box_ramp(scene);
     if (scene.growth.rate > 0.0)
         refuse(key, "", "changes the box, and with growth.rate cells change what fills it", "one of the two, not both",
                "Remove [growth], or the key");
-    for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dimensions_of(scene)); ++k)
         if (!scene.box.periodic[k] && !scene.walls.faces[k] && squeezes_edge(scene, static_cast<int>(k)))
             refuse(key, "",
                    fmt::format("changes edge {}, along which the box is open: nothing holds the rods", "xyz"[k]),
@@ -205,7 +214,7 @@ void check_forces(const Scene& scene) {
     const Scene::ForcesTable& forces = scene.forces;
     if (norm(forces.alignment_axis) == 0.0)
         refuse("forces.alignment_axis", text(forces.alignment_axis), "has no direction", "a vector that is not zero",
-               "Use [0, 0, 1]");
+               dimensions_of(scene) == 2 ? "Use [1, 0]" : "Use [0, 0, 1]");
     if (forces.drift || !drifts(scene)) return;
     const std::array<bool, 3> walled = walled_directions(scene);
     Vec3 held = forces.on_rods;
@@ -260,18 +269,21 @@ void check_time(const Scene& scene) {
 
 /// Whether rods of this volume and diameter can be in a box at all.
 void require_room(const std::string& key, const std::string& value, const Vec3& edges, double rods_volume,
-                  double largest_diameter, const char* remedy) {
-    for (int k = 0; k < 3; ++k) {
+                  double largest_diameter, const std::string& remedy) {
+    for (int k = 0; k < dimensions_of(edges); ++k) {
         if (edges[k] >= largest_diameter) continue;
         refuse(key, value,
                fmt::format("makes the box thinner than a rod's diameter: edge {} is {}", "xyz"[k], rounded(edges[k])),
                fmt::format("edges of at least {}", largest_diameter), remedy);
     }
-    const double fraction = rods_volume / (edges.x * edges.y * edges.z);
+    const double fraction = rods_volume / volume_of(edges);
+    const bool flat = dimensions_of(edges) == 2;
     if (!(fraction < 1.0))
         refuse(key, value,
-               fmt::format("leaves the rods no room: their volume is {} times that of the box", rounded(fraction)),
-               "a volume fraction less than 1", "Enlarge the box or use fewer rods");
+               fmt::format("leaves the rods no room: their {} is {} times that of the box", flat ? "area" : "volume",
+                           rounded(fraction)),
+               fmt::format("{} fraction less than 1", flat ? "an area" : "a volume"),
+               "Enlarge the box or use fewer rods");
 }
 
 /// Of a scene that is sound otherwise.
@@ -279,7 +291,7 @@ void check_step(const Scene& scene) {
     if (!scene.time.step || rods_are_given(scene)) return;  // is looked at once there are rods
     Rods one;
     one.push_back(0, {}, {1, 0, 0}, scene.rods.length, scene.rods.diameter);
-    const Box box{box_edges(scene), scene.box.periodic};
+    const Box box{box_edges(scene), box_periodic(scene)};
     require_short_step(free_step_limits(scene, *make_mobility(scene), box, one), *scene.time.step);
 }
 
@@ -292,8 +304,7 @@ void check_contact_range(const Scene& scene) {
 }
 
 void check_box(const Scene& scene) {
-    if (scene.box.volume_fraction.has_value() != scene.box.edges.has_value() && !rods_are_given(scene))
-        check_room(scene);
+    if (given_fraction(scene).has_value() != scene.box.edges.has_value() && !rods_are_given(scene)) check_room(scene);
 }
 
 /// A check of how keys go together, and the tables whose keys it looks at.
@@ -304,7 +315,8 @@ struct TogetherCheck {
 
 const std::vector<TogetherCheck>& together_checks() {
     static const std::vector<TogetherCheck> checks = {
-        {check_start, {"rods"}},
+        {check_start, {"rods", "box"}},
+        {validate_plane, {"box", "walls", "mobility", "forces", "schedule", "flow", "rods"}},
         {check_box_given_once, {"box"}},
         {check_box, {"box", "walls", "rods", "schedule", "flow"}},
         {check_motion, {"motion", "schedule"}},
@@ -317,7 +329,7 @@ const std::vector<TogetherCheck>& together_checks() {
         {validate_pressure,
          {"pressure", "flow", "motion", "fluid", "walls", "box", "growth", "schedule", "rods", "mobility", "contact",
           "springs"}},
-        {check_forces, {"forces", "walls"}},
+        {check_forces, {"forces", "walls", "box"}},
         {check_solver, {"contact", "solver", "fluid"}},
         {check_time, {"time", "motion", "fluid", "growth", "springs", "schedule", "forces", "flow"}},
         {check_growth, {"growth", "rods", "mobility"}},
@@ -349,10 +361,11 @@ void require_fit_together(const Scene& scene, std::span<const std::string> unsou
 void validate_box(const Scene& scene, double rods_volume, double largest_diameter) {
     const Vec3 edges = box_edges(scene, rods_volume);
     const bool given = scene.box.edges.has_value();
-    require_room(
-        given ? "box.edges" : "box.volume_fraction", given ? text(edges) : text(*scene.box.volume_fraction), edges,
-        rods_volume, largest_diameter,
-        given ? "Enlarge that edge" : "Use more rods, a lower volume fraction or a box.shape nearer to a cube");
+    require_room(given ? "box.edges" : fraction_key(scene), given ? text(edges) : text(*given_fraction(scene)), edges,
+                 rods_volume, largest_diameter,
+                 given ? "Enlarge that edge"
+                       : fmt::format("Use more rods, a lower {} or a box.shape nearer to a {}", fraction_words(scene),
+                                     dimensions_of(scene) == 2 ? "square" : "cube"));
     for (const auto& [time, squeezed] : ramp_of_edges(scene, rods_volume))
         require_room(key_of_box_ramp(scene), fmt::format("[{}, {}]", time, text(squeezed)), squeezed, rods_volume,
                      largest_diameter, "Compress less, or use more rods");

@@ -41,8 +41,9 @@ void KeyReader::read(const toml::node& node, bool& member, const Plain&) const {
 }
 
 void KeyReader::read(const toml::node& node, std::array<bool, 3>& member, const Plain&) const {
-    const toml::array& values = three(node, "[true, true, true]");
-    for (std::size_t k = 0; k < 3; ++k) read(values[k], member[k], Plain{});
+    const toml::array& values = vector(node, "true");
+    member = {};
+    for (std::size_t k = 0; k < values.size(); ++k) read(values[k], member[k], Plain{});
 }
 
 void KeyReader::read(const toml::node& node, std::uint64_t& member, const Count& count) const {
@@ -72,8 +73,9 @@ void KeyReader::read(const toml::node& node, double& member, const Quantity& qua
 }
 
 void KeyReader::read(const toml::node& node, Vec3& member, const Quantity& quantity) const {
-    const toml::array& values = three(node, "[1, 1, 1]");
-    for (int k = 0; k < 3; ++k) read(values[static_cast<std::size_t>(k)], member[k], quantity);
+    const toml::array& values = vector(node, "1");
+    member = {};
+    for (int k = 0; k < dimensions_; ++k) read(values[static_cast<std::size_t>(k)], member[k], quantity);
 }
 
 void KeyReader::refuse(const toml::node& node, std::string problem, std::string allowed, std::string suggestion) const {
@@ -99,11 +101,14 @@ std::string KeyReader::word(const toml::node& node, const std::vector<std::strin
            suggestion.empty() ? "Choose one of these words" : suggestion);
 }
 
-const toml::array& KeyReader::three(const toml::node& node, const std::string& example) const {
-    if (!node.is_array()) refuse_type(node, "an array of three, as " + example);
+const toml::array& KeyReader::vector(const toml::node& node, const std::string& element) const {
+    const bool flat = dimensions_ == 2;
+    const std::string example = fmt::format("[{}{}{}]", element, ", " + element, flat ? "" : ", " + element);
+    if (!node.is_array()) refuse_type(node, fmt::format("an array of {}, as {}", flat ? "two" : "three", example));
     const toml::array& values = *node.as_array();
-    if (values.size() != 3)
-        refuse(node, fmt::format("has {} elements", values.size()), "three elements: x, y, z",
+    if (values.size() != static_cast<std::size_t>(dimensions_))
+        refuse(node, fmt::format("has {} elements", values.size()),
+               flat ? "two elements with box.dimensions = 2: x, y" : "three elements: x, y, z",
                "Write it as " + example);
     return values;
 }
@@ -111,7 +116,8 @@ const toml::array& KeyReader::three(const toml::node& node, const std::string& e
 /// Time and value of each point of a ramp.
 std::vector<std::pair<const toml::node*, const toml::node*>> KeyReader::points(const toml::node& node,
                                                                                bool of_vectors) const {
-    const std::string example = of_vectors ? "[[50.0, [12.0, 12.0, 12.0]]]" : "[[50.0, 0.2], [80.0, 0.2]]";
+    const char* of_edges = dimensions_ == 2 ? "[[50.0, [12.0, 12.0]]]" : "[[50.0, [12.0, 12.0, 12.0]]]";
+    const std::string example = of_vectors ? of_edges : "[[50.0, 0.2], [80.0, 0.2]]";
     if (!node.is_array() || node.as_array()->empty()) refuse_type(node, "points [time, value], as " + example);
     std::vector<std::pair<const toml::node*, const toml::node*>> points;
     for (const toml::node& point : *node.as_array()) {

@@ -22,8 +22,9 @@ std::string type_name(const toml::node& node);
 /// system. Throws InputError with the place and the value as written.
 class KeyReader {
 public:
-    KeyReader(const TomlDocument& document, UnitSystem units, std::string key)
-        : document_(document), units_(units), key_(std::move(key)) {}
+    /// Vectors have as many numbers as the box has dimensions: of two, the third stays 0, or false.
+    KeyReader(const TomlDocument& document, UnitSystem units, int dimensions, std::string key)
+        : document_(document), units_(units), dimensions_(dimensions), key_(std::move(key)) {}
 
     void read(const toml::node& node, std::string& member, const Plain&) const;
     void read(const toml::node& node, bool& member, const Plain&) const;
@@ -63,13 +64,14 @@ private:
                              std::string suggestion) const;
     [[noreturn]] void refuse_type(const toml::node& node, const std::string& expected) const;
     std::string word(const toml::node& node, const std::vector<std::string>& all) const;
-    const toml::array& three(const toml::node& node, const std::string& example) const;
+    const toml::array& vector(const toml::node& node, const std::string& element) const;
     std::vector<std::pair<const toml::node*, const toml::node*>> points(const toml::node& node, bool of_vectors) const;
     std::string allowed(const Quantity& quantity) const;
     double with_unit(const toml::node& node, const Quantity& quantity) const;
 
     const TomlDocument& document_;
     UnitSystem units_;
+    int dimensions_;
     std::string key_;
 };
 

@@ -12,16 +12,31 @@ namespace jostle {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> rod_names = {"x", "y", "z", "nx", "ny", "nz", "length", "diameter", "speed"};
+constexpr std::array<std::string_view, 9> rod_names = {"x", "y", "nx", "ny", "z", "nz", "length", "diameter", "speed"};
 constexpr CsvColumns rod_columns = {rod_names, 6, "a rods file",
                                     "The header names the columns x,y,z,nx,ny,nz and optionally length,diameter,speed"};
+constexpr CsvColumns columns_in_plane = {
+    rod_names, 4, "a rods file in the plane",
+    "The header names the columns x,y,nx,ny and optionally length,diameter,speed (and z,nz, which are 0)"};
+
+/// The value of a column along z; in two dimensions 0, and nothing else. (A -0 of the file is 0, too.)
+double along_z(std::string_view name, const std::optional<double>& value, bool flat, const std::string& path,
+               int line) {
+    if (!flat) return *value;
+    if (value.value_or(0.0) == 0.0) return 0.0;
+    throw refused_file(path, fmt::format("{} = {} lies out of the plane of box.dimensions = 2", name, *value),
+                       fmt::format("Leave out {}, or set it to 0", name), line);
+}
 
 }  // namespace
 
-Rods read_rods(const std::string& path, double default_length, double default_diameter) {
+Rods read_rods(const std::string& path, double default_length, double default_diameter, int dimensions) {
     Rods rods;
-    for_each_csv_row(path, rod_columns, [&](int line, std::span<const std::optional<double>> values) {
-        const Vec3 centre{*values[0], *values[1], *values[2]}, axis{*values[3], *values[4], *values[5]};
+    const bool flat = dimensions == 2;
+    const CsvColumns& columns = flat ? columns_in_plane : rod_columns;
+    for_each_csv_row(path, columns, [&](int line, std::span<const std::optional<double>> values) {
+        const Vec3 centre{*values[0], *values[1], along_z("z", values[4], flat, path, line)};
+        const Vec3 axis{*values[2], *values[3], along_z("nz", values[5], flat, path, line)};
         const double length = values[6].value_or(default_length), diameter = values[7].value_or(default_diameter);
         if (!(norm(axis) > 1e-12)) throw refused_file(path, "the axis (nx, ny, nz) has no direction", "", line);
         if (length < 0.0) throw refused_file(path, fmt::format("length = {} is negative", length), "", line);

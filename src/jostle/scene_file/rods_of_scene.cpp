@@ -67,6 +67,18 @@ void require_diameter(const Scene& scene, const std::string& file, double thinne
                       .suggestion = "Set it to the mean of the file's diameters"});
 }
 
+/// In two dimensions nothing would bring a rod back into the plane.
+void require_in_plane(const Scene& scene, const Rods& rods, const std::string& giver) {
+    for (std::size_t i = 0; dimensions_of(scene) == 2 && i < rods.size(); ++i)
+        for (const auto& [name, value] : {std::pair{"z", rods.centre[i].z}, std::pair{"nz", rods.axis[i].z}})
+            if (value != 0.0)
+                throw InputError(
+                    {.key = giver,
+                     .value = fmt::format("rod {}", rods.id[i]),
+                     .problem = fmt::format("lies out of the plane of box.dimensions = 2: {} = {:.6g}", name, value),
+                     .allowed = "z = 0 and nz = 0"});
+}
+
 /// Of all rods, from end to end.
 double longest_of(const Rods& rods) {
     double longest = 0.0;
@@ -101,9 +113,11 @@ void require_fit(const Scene& scene, const Rods& rods, const std::string& giver)
                           .suggestion = "Leave rods.count out to take all of them"});
     const auto [thinnest, thickest] = std::minmax_element(rods.diameter.begin(), rods.diameter.end());
     require_diameter(scene, giver, *thinnest, *thickest);
-    validate_box(scene, total_volume(rods), *thickest);
-    validate_walls(scene, total_volume(rods), *std::max_element(rods.length.begin(), rods.length.end()), *thickest);
-    validate_sheared_box(scene, total_volume(rods), longest_of(rods));
+    require_in_plane(scene, rods, giver);
+    const double volume = total_volume(rods, dimensions_of(scene));
+    validate_box(scene, volume, *thickest);
+    validate_walls(scene, volume, *std::max_element(rods.length.begin(), rods.length.end()), *thickest);
+    validate_sheared_box(scene, volume, longest_of(rods));
     validate_growth(scene, *thickest);
     validate_contact_range(scene, longest_of(rods));
     require_near(rods, box_of(scene, rods), giver);
@@ -143,7 +157,7 @@ std::optional<GivenRods> given_rods(const Scene& scene, const std::filesystem::p
     if (scene.rods.start == StartKind::run) return given_by_run(scene, scene_path);
     if (scene.rods.start != StartKind::file) return std::nullopt;
     const std::filesystem::path file = named_file("rods.file", scene.rods.file, scene_path);
-    Rods rods = read_rods(file.string(), scene.rods.length, scene.rods.diameter);
+    Rods rods = read_rods(file.string(), scene.rods.length, scene.rods.diameter, dimensions_of(scene));
     if (!rods.speed.empty()) require_swimming(scene, file.string());
     require_fit(scene, rods, "the file " + file.string());
     return GivenRods{std::move(rods), {}};
@@ -155,14 +169,14 @@ std::optional<Rods> rods_from_file(const Scene& scene, const std::filesystem::pa
 }
 
 Box box_of(const Scene& scene, const std::optional<Rods>& rods) {
-    const double volume = rods ? total_volume(*rods) : rods_volume(scene);
-    return sheared_at_start(scene, {box_edges(scene, volume), scene.box.periodic, scene_walls(scene)});
+    const double volume = rods ? total_volume(*rods, dimensions_of(scene)) : rods_volume(scene);
+    return sheared_at_start(scene, {box_edges(scene, volume), box_periodic(scene), scene_walls(scene)});
 }
 
 std::shared_ptr<const Rods> fixed_rods(const Scene& scene, const std::filesystem::path& scene_path) {
     if (scene.rods.fixed.empty()) return nullptr;
     const std::filesystem::path file = named_file("rods.fixed", scene.rods.fixed, scene_path);
-    Rods fixed = read_rods(file.string(), scene.rods.length, scene.rods.diameter);
+    Rods fixed = read_rods(file.string(), scene.rods.length, scene.rods.diameter, dimensions_of(scene));
     if (!fixed.speed.empty()) throw refused_file(file.string(), "fixed rods do not swim", "Remove the column speed");
     const Box box = box_of(scene, std::nullopt);
     require_near(fixed, box, file.string());

@@ -25,9 +25,12 @@ namespace {
 void read_keys(const TomlDocument& document, Scene& scene, Mistakes& mistakes) {
     for_each_key(scene, [&](std::string_view table, std::string_view name, auto& member, const auto& spec) {
         if (const toml::node* node = document.find(table, name))
-            mistakes.look(
-                [&] { KeyReader(document, scene.units.system, full_key(table, name)).read(*node, member, spec); });
+            mistakes.look([&] {
+                KeyReader(document, scene.units.system, dimensions_of(scene), full_key(table, name))
+                    .read(*node, member, spec);
+            });
     });
+    leave_out_z(scene);
 }
 
 /// A key that has no default, and a value to begin with.

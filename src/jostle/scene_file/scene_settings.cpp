@@ -35,10 +35,14 @@ bool is_toml_value(const std::string& text) {
 /// Keys of which a scene has one or the other.
 constexpr std::pair<std::string_view, std::string_view> alternatives[] = {
     {"box.volume_fraction", "box.edges"},
+    {"box.area_fraction", "box.edges"},
     {"box.edges", "box.volume_fraction"},
+    {"box.edges", "box.area_fraction"},
     {"box.edges", "box.shape"},
     {"schedule.edges", "schedule.volume_fraction"},
+    {"schedule.edges", "schedule.area_fraction"},
     {"schedule.volume_fraction", "schedule.edges"},
+    {"schedule.area_fraction", "schedule.edges"},
     {"time.step", "time.rms_step"},
     {"time.rms_step", "time.step"}};
 

@@ -106,8 +106,9 @@ private:
         for (int k = 0; k < stretch.steps; ++k) {
             const StepReport report = simulation.step();
             if (report.status != LcpStatus::converged) break;
-            Z_.push_back(1.0 + trace(report.collision_virial) / (3.0 * static_cast<double>(rods_.size())));
-            order_.push_back(nematic_order(simulation.rods().axis).order);
+            Z_.push_back(1.0 +
+                         trace(report.collision_virial) / (box_.dimensions() * static_cast<double>(rods_.size())));
+            order_.push_back(nematic_order(simulation.rods().axis, box_.dimensions()).order);
             ++done_.steps;
             tell();
         }
@@ -126,7 +127,7 @@ private:
         settings.lcp.tolerance = tolerance * thinnest;
         settings.lcp.max_iterations = 1000;
         std::vector<std::unique_ptr<Motion>> motions;
-        motions.push_back(std::make_unique<BrownianMotion>(settings.kT));
+        motions.push_back(std::make_unique<BrownianMotion>(settings.kT, box_.dimensions()));
         // Random numbers of its own, far from those of the run.
         const Clock clock{(std::uint64_t{1} << 39) + static_cast<std::uint64_t>(done_.steps), 0.0};
         return Simulation({box_, rods_, clock}, std::make_unique<DragMobility>(pushing_drag(true)), std::move(motions),

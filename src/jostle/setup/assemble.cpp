@@ -33,8 +33,9 @@ Scene scene_of_step(const Scene& scene, std::uint64_t step, double time_step) {
 Schedule schedule_of(const Scene& scene, const Rods& rods, double time_step) {
     if (!has_schedule(scene)) return {};
     std::optional<Vec3> first;
-    if (squeezes_box(scene)) first = box_edges(scene, total_volume(rods));
-    return [scene, time_step, first, ramp = ramp_of_edges(scene, total_volume(rods))](const Clock& clock) {
+    if (squeezes_box(scene)) first = box_edges(scene, total_volume(rods, dimensions_of(scene)));
+    return [scene, time_step, first,
+            ramp = ramp_of_edges(scene, total_volume(rods, dimensions_of(scene)))](const Clock& clock) {
         const Scene now = scene_of_step(scene, clock.step, time_step);
         Conditions conditions{thermal_energy(now), motions_of(now), std::nullopt};
         if (first) conditions.edges = value_at(*first, ramp, static_cast<double>(clock.step + 1) * time_step);

@@ -21,14 +21,20 @@ FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, con
     const double kT = thermal_energy(scene);
     for (std::size_t i = 0; kT > 0.0 && i < rods.size(); ++i) {
         const RodMobility rod = mobility.of_rod(i);
-        const double diffusion = kT * (rod.parallel + 2.0 * rod.perpendicular) / 3.0;
+        const double diffusion = translational_diffusion(kT, rod, dimensions_of(scene));
         clocks.diffusion = std::max(clocks.diffusion, rods.diameter[i] * rods.diameter[i] / diffusion);
     }
     return clocks;
 }
 
-double crowding_slowdown(double volume_fraction, double aspect_ratio) {
-    constexpr double slowest = 100.0, spinodal = 4.0;
+double crowding_slowdown(double volume_fraction, double aspect_ratio, int dimensions) {
+    constexpr double slowest = 100.0, spinodal = 4.0, spinodal_in_plane = 1.5 * std::numbers::pi;
+    if (dimensions == 2) {
+        const double area_fraction = std::min(volume_fraction, 0.9);
+        const double density = area_fraction / rod_volume(aspect_ratio, 1.0, 2);
+        const double crowd = density * aspect_ratio * aspect_ratio / std::pow(1.0 - area_fraction, 0.8);
+        return 1.0 / std::max(0.1, std::fabs(1.0 - crowd / spinodal_in_plane));
+    }
     const double phi = std::min(volume_fraction, 0.7), volume = std::numbers::pi * (aspect_ratio / 4.0 + 1.0 / 6.0);
     const double crowd = std::numbers::pi / 4.0 * (phi / volume) * aspect_ratio * aspect_ratio * (1.0 - 0.75 * phi) /
                          ((1.0 - phi) * (1.0 - phi));

@@ -19,6 +19,9 @@ FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, con
 /// decays of the order tensor: 2.3 and 18 times at L/D = 3, phi = 0.3 and 0.5, 1.9 and 15 times at L/D = 5, phi = 0.2
 /// and 0.35, 4.5 times at L/D = 10, phi = 0.2, where this gives 2.9, 32, 1.9, 8.2 and 3.7. At most 100. `aspect_ratio`
 /// = L/D.
-double crowding_slowdown(double volume_fraction, double aspect_ratio);
+///
+/// In two dimensions, from the order of hard rods of L/D = 5 in Monte Carlo, 1/|1 - c/c*| with c = n L^2/(1 - phi)^0.8
+/// and Onsager's c* = 3 pi/2 of needles in a plane; how much neighbours in the way slow it down is not in it.
+double crowding_slowdown(double volume_fraction, double aspect_ratio, int dimensions);
 
 }  // namespace jostle

@@ -112,7 +112,7 @@ MonteCarlo::Trial MonteCarlo::placing(std::uint32_t row, std::uint32_t draw, con
     const RandomKey key{seed_, sweeps_, Stream::monte_carlo, rods_.id[row]};
     const auto place = uniform4(key, draw), direction = uniform4(key, draw + 1);
     return {site.domains.point_in(site.domain, {place[0], place[1], place[2]}),
-            random_direction(direction[0], direction[1])};
+            random_direction(direction[0], direction[1], box_.dimensions())};
 }
 
 // Along any direction, along the axis, or round the middle.
@@ -120,7 +120,7 @@ MonteCarlo::Trial MonteCarlo::shift(std::uint32_t row, std::uint32_t draw) const
     const RandomKey key{seed_, sweeps_, Stream::monte_carlo, rods_.id[row]};
     const auto size = uniform4(key, draw), direction = uniform4(key, draw + 1);
     const double half = 0.5 * rods_.length[row], diameter = rods_.diameter[row];
-    const Vec3 anywhere = random_direction(direction[0], direction[1]);
+    const Vec3 anywhere = random_direction(direction[0], direction[1], box_.dimensions());
     const Vec3& axis = rods_.axis[row];
     const auto up_to = [&](double largest) { return largest * std::pow(smallest_step * diameter / largest, size[0]); };
     if (half == 0.0 || size[1] < 1.0 / 3.0) return {rods_.centre[row] + up_to(diameter) * anywhere, axis};

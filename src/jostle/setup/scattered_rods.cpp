@@ -79,7 +79,7 @@ Rods scattered_rods(const Scene& scene, const Box& box, const std::optional<Vec3
             rods.centre[i] = box.point_at({u[0], u[1], u[2]});
             if (common_axis) return;
             const auto v = uniform4(key, 2 * draw + 1);
-            rods.axis[i] = random_direction(v[0], v[1]);
+            rods.axis[i] = random_direction(v[0], v[1], box.dimensions());
         });
     };
     Rows again(rods.size());

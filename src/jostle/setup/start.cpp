@@ -30,15 +30,15 @@ Rods at_random(Rods rods, const Box& box, bool turning, const Scene& scene, cons
     else
         result = push_apart(rods, box, DragMobility(pushing_drag(turning)));
     if (!result.apart) {
-        throw InputError(
-            {.key = "rods.start",
-             .value = turning ? "\"random\"" : "\"aligned\"",
-             .problem = fmt::format("{} rods of length {} at volume fraction {:.4f} could not be placed without "
-                                    "overlap: after {} rounds of pushing apart {:.3g} D are left",
-                                    rods.size(), scene.rods.length, total_volume(rods) / box.volume(), result.rounds,
-                                    result.overlap / scene.rods.diameter),
-             .suggestion = turning ? "Use a lower volume fraction, a roomier box, or start = \"aligned\" or \"lattice\""
-                                   : "Use a lower volume fraction, a roomier box, or start = \"lattice\""});
+        throw InputError({.key = "rods.start",
+                          .value = turning ? "\"random\"" : "\"aligned\"",
+                          .problem = fmt::format("{} rods of length {} at {} {:.4f} could not be placed without "
+                                                 "overlap: after {} rounds of pushing apart {:.3g} D are left",
+                                                 rods.size(), scene.rods.length, fraction_words(scene),
+                                                 total_volume(rods, box.dimensions()) / box.volume(), result.rounds,
+                                                 result.overlap / scene.rods.diameter),
+                          .suggestion = fmt::format("Use a lower {}, a roomier box, or start = {}\"lattice\"",
+                                                    fraction_words(scene), turning ? "\"aligned\" or " : "")});
     }
     rods.image.assign(rods.size(), Image{0, 0, 0});
     return in_order_of_ids(rods);  // annealing has renumbered them
@@ -50,10 +50,12 @@ struct Grid {
     double tightness = INFINITY;  ///< the largest of size/spacing over the directions; 1 means touching
 };
 
-/// The grid with at least `count` sites that leaves the most room in its tightest direction.
+/// The grid with at least `count` sites that leaves the most room in its tightest direction; one site along an edge of
+/// infinity, which stands for one that a flat box has not.
 Grid roomiest_grid(std::uint64_t count, const std::array<double, 3>& edges, const std::array<double, 3>& size) {
     Grid best;
     const auto most = [&](std::size_t k) {
+        if (std::isinf(edges[k])) return std::uint64_t{1};
         return static_cast<std::uint64_t>(std::clamp(edges[k] / size[k], 1.0, static_cast<double>(count)));
     };
     for (std::uint64_t across = 1; across <= most(1); ++across) {
@@ -87,9 +89,11 @@ Lattice lattice_of(const Scene& scene, const Box& box) {
                           .problem = "a lattice needs its rods along an edge of the box",
                           .allowed = "[1, 0, 0], [0, 1, 0] or [0, 0, 1]",
                           .suggestion = "For another direction use start = \"aligned\""});
-    Lattice lattice{axis, {along, (along + 1) % 3, (along + 2) % 3}, {}, {}};
+    const bool flat = box.dimensions() == 2;
+    Lattice lattice{axis, {along, flat ? 2 : (along + 1) % 3, flat ? 1 - along : (along + 2) % 3}, {}, {}};
     const double D = scene.rods.diameter;
-    for (std::size_t k = 0; k < 3; ++k) lattice.edges[k] = box.edges()[lattice.direction[k]];
+    for (std::size_t k = 0; k < 3; ++k)
+        lattice.edges[k] = lattice.direction[k] < box.dimensions() ? box.edges()[lattice.direction[k]] : INFINITY;
     const Grid grid = roomiest_grid(scene.rods.count, lattice.edges, {scene.rods.length + D, D, D});
     if (grid.tightness > 1.0)
         throw InputError(
@@ -98,7 +102,7 @@ Lattice lattice_of(const Scene& scene, const Box& box) {
              .problem = fmt::format("{} rods do not fit into the box in rows: the best grid, {} x {} x {}, would "
                                     "need edges {:.4g} times longer",
                                     scene.rods.count, grid.sites[0], grid.sites[1], grid.sites[2], grid.tightness),
-             .suggestion = "Use a lower volume fraction or another box.shape"});
+             .suggestion = fmt::format("Use a lower {} or another box.shape", fraction_words(scene))});
     lattice.sites = grid.sites;
     return lattice;
 }
@@ -115,7 +119,8 @@ Rods rods_in_rows(const Scene& scene, const Box& box) {
                                                    site % in_row[2]};
         Vec3 centre;
         for (std::size_t k = 0; k < 3; ++k)
-            centre[direction[k]] = (static_cast<double>(cell[k]) + 0.5) * edges[k] / static_cast<double>(in_row[k]);
+            if (std::isfinite(edges[k]))
+                centre[direction[k]] = (static_cast<double>(cell[k]) + 0.5) * edges[k] / static_cast<double>(in_row[k]);
         rods.push_back(id, centre, axis, scene.rods.length, scene.rods.diameter);
     }
     return rods;
@@ -183,12 +188,13 @@ void require_lattice_fits(const Scene& scene, const Box& box) {
 }
 
 std::string start_warning(const Scene& scene, double volume_fraction) {
-    const double aspect_ratio = scene.rods.length / scene.rods.diameter, limit = isotropic_limit(aspect_ratio);
+    const double aspect_ratio = scene.rods.length / scene.rods.diameter,
+                 limit = isotropic_limit(aspect_ratio, dimensions_of(scene));
     if (scene.rods.start != StartKind::random || !keeps_equilibrium(scene) || volume_fraction <= limit) return "";
     return fmt::format(
-        "a random start is isotropic, and beyond a volume fraction of about {:.2f} rods of L/D = {:.3g} "
+        "a random start is isotropic, and beyond {} {} of about {:.2f} rods of L/D = {:.3g} "
         "order, which takes longer than most runs: start = \"aligned\" is nearer to equilibrium",
-        limit, aspect_ratio);
+        dimensions_of(scene) == 2 ? "an" : "a", fraction_words(scene), limit, aspect_ratio);
 }
 
 Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& from_file, const AnnealingWatch& watch) {

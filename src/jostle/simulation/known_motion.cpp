@@ -16,11 +16,21 @@ void add(const Velocities& part, Velocities& sum) {
     });
 }
 
+/// In two dimensions rods move along x and y, and turn round z: of velocities, or of forces and torques.
+void keep_in_plane(const Box& box, std::vector<Vec3>& linear, std::vector<Vec3>& angular) {
+    if (box.dimensions() == 3) return;
+    parallel_for(linear.size(), [&](std::size_t i) {
+        linear[i].z = 0.0;
+        angular[i] = {0.0, 0.0, angular[i].z};
+    });
+}
+
 /// M is applied once to the sum of the forces of motions and springs; stresses need the velocities that they give
 /// (theory 2.7, 2.9).
 void add_velocities_of_forces(const State& state, std::span<const std::unique_ptr<Motion>> motions,
                               const MobilityOperator& mobility, const StepContext& context, KnownMotion& known) {
     known.exerted = sum_of_forces(motions, state.rods, context).value_or(Forces{0});
+    keep_in_plane(state.box, known.exerted.force, known.exerted.torque);
     known.by_forces.resize(0);
     if (known.exerted.size() == 0 && state.springs.empty()) return;
     Forces sum = known.exerted;
@@ -49,6 +59,7 @@ void find_known_motion(const State& state, std::span<const std::unique_ptr<Motio
     parallel_for(rods.size(), [&](std::size_t i) { linear[i] = angular[i] = Vec3{}; });
     for (const auto& motion : motions) motion->add_velocities(known.velocity, rods, mobility, context);
     add_velocities_of_forces(state, motions, mobility, context, known);
+    keep_in_plane(state.box, linear, angular);
 
     known.end.resize(rods.size());
     known.displacement.resize(rods.size());

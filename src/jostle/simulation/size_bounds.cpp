@@ -68,8 +68,8 @@ SearchRanges search_ranges(const State& state, const KnownMotion& known, const S
         std::clamp(limit_per_displacement * displacement, 0.5 * ranges.activation_margin, ranges.displacement_limit);
     double max_skin = 1.0;
     if (state.box.is_periodic()) {  // in an open one the volume does not tell how near rods are to each other
-        const double near =
-            static_cast<double>(state.rods.size()) * std::pow(mean_length + mean_diameter, 3.0) / state.box.volume();
+        const double near = static_cast<double>(state.rods.size()) *
+                            std::pow(mean_length + mean_diameter, state.box.dimensions()) / state.box.volume();
         max_skin = std::clamp(std::sqrt(crowd / near), 1.0, max_skin_when_dilute);
     }
     ranges.skin *=

@@ -222,7 +222,7 @@ void Simulation::turn_round(std::span<const std::uint32_t> rows) {
     Rods& rods = state_.rods;
     std::vector<std::uint64_t> ids(rows.size());
     parallel_for(rows.size(), [&](std::size_t k) {
-        rods.axis[rows[k]] = -rods.axis[rows[k]];
+        rods.axis[rows[k]] = Vec3{} - rods.axis[rows[k]];  // 0 stays 0, not -0
         ids[k] = rods.id[rows[k]];
     });
     jostle::turn_round(state_.springs, ids);

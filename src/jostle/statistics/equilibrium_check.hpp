@@ -8,7 +8,7 @@ namespace jostle {
 
 /// How long a rod alone takes to forget how it lay. Where nothing turns, or nothing diffuses, the time is 0.
 struct FreeClocks {
-    double rotation = 0.0;   ///< 1/(2 D_R): <n(0).n(t)> has fallen to 1/e
+    double rotation = 0.0;   ///< 1/(2 D_R), in the plane 1/D_R: <n(0).n(t)> has fallen to 1/e
     double diffusion = 0.0;  ///< D^2/D_t
     double flow = 0.0;       ///< one unit of strain; of a flow to and fro a period
 };
@@ -30,6 +30,7 @@ struct WatchedColumn {
 
 /// The rows of production.
 struct ProductionSeries {
+    int dimensions = 3;
     double row_time = 0.0;
     std::vector<WatchedColumn> watched;             ///< pressures and the like
     std::vector<double> order;                      ///< S; left empty where axes do not matter, as of spheres
@@ -52,8 +53,9 @@ struct EquilibriumCheck {
 /// Too short to tell: fewer than 4 rotation times, 2 diffusion times or 2 units of strain, or fewer than 8 independent
 /// values of the order. A rotation time is the longer of that of a free rod, which no series can shorten, and of what
 /// the series shows: the order tensor of free rods decays with 1/(6 D_R), so crowding makes it three times the
-/// correlation time of the tensor. (Of a nematic, mean S above 0.4, the director may turn for ever, and moves nothing
-/// else: there the order alone is asked.) Drifting: a watched column, or the order, has a significant `drift`.
+/// correlation time of the tensor; in the plane with 1/(4 D_R), where the axis has 1/D_R: four times. (Of a nematic,
+/// mean S above 0.4, the director may turn for ever, and moves nothing else: there the order alone is asked.) Drifting:
+/// a watched column, or the order, has a significant `drift`.
 EquilibriumCheck check_equilibrium(const ProductionSeries& series, const FreeClocks& clocks);
 
 /// "0.13 of a rotation time", "5.2 rotation times".

@@ -19,12 +19,14 @@ Vec3 with_largest_component_positive(const Vec3& v) {
 
 }  // namespace
 
-NematicOrder nematic_order(std::span<const Vec3> axes) {
+NematicOrder nematic_order(std::span<const Vec3> axes, int dimensions) {
     if (axes.empty()) {
         refuse("axes", "none", "no rods, no order", "at least one axis");
     }
     const auto sum = parallel_sum<Mat3>(axes.size(), [&](std::size_t i) { return outer(axes[i], axes[i]); });
-    const Mat3 tensor = (1.5 / static_cast<double>(axes.size())) * sum - 0.5 * identity();
+    const double others = dimensions - 1;
+    const Mat3 tensor =
+        (dimensions / others / static_cast<double>(axes.size())) * sum - (1.0 / others) * identity(dimensions);
     const SymmetricEigen eigen = symmetric_eigen(tensor);
     return {tensor, eigen.values[2], with_largest_component_positive(eigen.vectors[2])};
 }

@@ -19,7 +19,8 @@ struct NematicOrder {
 /// Q tensor, order S and director of the unit vectors `axes` (N, 3), N >= 1; heads and tails are not told apart.
 ///
 /// The mean axis would vanish for rods without a head, so S is not taken from it. A finite isotropic set has S of the
-/// order of 1/sqrt(N), not 0. Throws InputError if there is no axis.
-NematicOrder nematic_order(std::span<const Vec3> axes);
+/// order of 1/sqrt(N), not 0. In two dimensions Q = <2 n n - I> and S = sqrt(<cos 2a>^2 + <sin 2a>^2), 0 where axes are
+/// random in the plane z = 0 (theory, eq. 9.3). Throws InputError if there is no axis.
+NematicOrder nematic_order(std::span<const Vec3> axes, int dimensions = 3);
 
 }  // namespace jostle

@@ -8,27 +8,31 @@
 
 namespace jostle {
 
-Stress assembly_stress(double number_density, double kT, double volume, const StressSums& sums) {
+Stress assembly_stress(double number_density, double kT, double volume, const StressSums& sums, int dimensions) {
     require_value(std::isfinite(number_density) && number_density >= 0.0, "number_density", number_density,
                   "is no density", ">= 0, finite");
     require_value(std::isfinite(kT) && kT >= 0.0, "kT", kT, "is no temperature", ">= 0, finite");
     require_value(std::isfinite(volume) && volume > 0.0, "volume", volume, "is no volume to refer the stress to",
                   "> 0, finite");
     const double per_volume = 1.0 / volume;
-    return {(number_density * kT) * identity(), per_volume * sums.orientation, per_volume * sums.collision,
-            per_volume * sums.springs};
+    return {(number_density * kT) * identity(dimensions), per_volume * sums.orientation, per_volume * sums.collision,
+            per_volume * sums.springs, dimensions};
+}
+
+double mean_normal_stress(const Mat3& stress, int dimensions) {
+    return trace(stress) / dimensions;
 }
 
 double pressure(const Stress& stress) {
-    return trace(stress.kinetic + stress.collision + stress.springs) / 3.0;
+    return mean_normal_stress(stress.kinetic + stress.collision + stress.springs, stress.dimensions);
 }
 
 double pressure_collision(const Stress& stress) {
-    return trace(stress.collision) / 3.0;
+    return mean_normal_stress(stress.collision, stress.dimensions);
 }
 
 double pressure_springs(const Stress& stress) {
-    return trace(stress.springs) / 3.0;
+    return mean_normal_stress(stress.springs, stress.dimensions);
 }
 
 double compressibility(const Stress& stress, double number_density, double kT) {
@@ -38,13 +42,23 @@ double compressibility(const Stress& stress, double number_density, double kT) {
     return pressure(stress) / ideal_pressure;
 }
 
-std::array<double, 3> principal_stresses(const Mat3& stress) {
-    return symmetric_eigen(stress).values;
+PrincipalStresses principal_stresses(const Mat3& stress, int dimensions) {
+    const SymmetricEigen eigen = symmetric_eigen(stress);
+    PrincipalStresses principal;
+    std::size_t along_z = 3;  // which of the three a plane has not
+    for (std::size_t k = 0; k < 3 && dimensions == 2; ++k)
+        if (along_z == 3 || std::fabs(eigen.vectors[k].z) > std::fabs(eigen.vectors[along_z].z)) along_z = k;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (k == along_z) continue;
+        principal.values.push_back(eigen.values[k]);
+        principal.directions.push_back(eigen.vectors[k]);
+    }
+    return principal;
 }
 
-double anisotropy_ratio(const Mat3& stress) {
-    const auto principal = principal_stresses(stress);
-    return principal[0] > 0.0 ? principal[2] / principal[0] : std::numeric_limits<double>::quiet_NaN();
+double anisotropy_ratio(const Mat3& stress, int dimensions) {
+    const std::vector<double> principal = principal_stresses(stress, dimensions).values;
+    return principal.front() > 0.0 ? principal.back() / principal.front() : std::numeric_limits<double>::quiet_NaN();
 }
 
 double relative_asymmetry(const Mat3& stress) {

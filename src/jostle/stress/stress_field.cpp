@@ -28,6 +28,7 @@ struct Share {
 };
 
 Share share_of(double place, double cell_edge, std::size_t cells, bool periodic) {
+    if (cell_edge == 0.0) return {0, 0, 0.0};  // of a flat box
     const double place_in_cells = place / cell_edge - 0.5, lower = std::floor(place_in_cells);
     const auto count = static_cast<std::int64_t>(cells), first = static_cast<std::int64_t>(lower);
     const auto cell = [&](std::int64_t k) {
@@ -67,7 +68,8 @@ void StressField::add(const CollisionMoments& moments, const Rods& rods, double 
     for (const CollisionMoments::Body& body : moments.bodies)
         deposit(body.centre, [&](Content& cell, double weight) { cell.collision += weight * body.geometric; });
     for (const std::uint32_t i : id_order(rods)) {
-        const Mat3 orientation = orientation_stress_of_rod(rods.axis[i], rods.length[i], rods.diameter[i], kT);
+        const Mat3 orientation =
+            orientation_stress_of_rod(rods.axis[i], rods.length[i], rods.diameter[i], kT, box_.dimensions());
         deposit(rods.centre[i], [&](Content& cell, double weight) {
             cell.number_density += weight;
             cell.orientation += weight * orientation;
@@ -81,6 +83,7 @@ void StressField::spread(const CollisionMoments::Pair& pair) {
     const Vec3 begin = pair.middle - 0.5 * pair.separation;
     breaks_.assign({0.0, 1.0});
     for (int k = 0; k < 3; ++k) {
+        if (edges_[k] == 0.0) continue;
         const double half_edge = 0.5 * edges_[k], length = pair.separation[k];
         const double from = begin[k] / half_edge, to = (begin[k] + length) / half_edge;
         for (double plane = std::ceil(std::min(from, to)); plane < std::max(from, to); plane += 1.0)

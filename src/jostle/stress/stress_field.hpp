@@ -38,7 +38,7 @@ public:
     const std::array<std::size_t, 3>& cells() const { return cells_; }
     std::size_t size() const { return content_.size(); }
     Vec3 centre(std::size_t cell) const;
-    double cell_volume() const { return edges_.x * edges_.y * edges_.z; }
+    double cell_volume() const { return volume_of(edges_); }
     bool has_outside() const { return !box_.is_periodic(); }
 
     /// What is in a cell: rods per volume, and stress, force/length^2.

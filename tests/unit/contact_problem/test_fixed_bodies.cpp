@@ -53,7 +53,7 @@ struct Crowd {
             const PairGeometry pair = pair_geometry(rods, i, j, box.displacement(image), rods.centre, rods.axis);
             const NearestPoints nearest = nearest_points(pair);
             append_contacts({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), image}, pair, nearest,
-                            norm(nearest.separation), 0.3, contacts);
+                            norm(nearest.separation), 0.3, 3, contacts);
         }
         for (std::uint32_t row = 0; row < rods.size(); row += 3) {
             const double half = 0.5 * rods.length[row];

@@ -225,7 +225,16 @@ TEST_CASE("what no run has written is refused, though the checksum is right") {
          }},
         {"edge of the box = 0",
          [&](Checkpoint& c) {
+             c.state.box = Box({10, 0, 10});
+         }},
+        {"periodic along z in a flat box = 1",
+         [&](Checkpoint& c) {
              c.state.box = Box({10, 10, 0});
+         }},
+        {"z in a flat box in row 0 = 2",
+         [&](Checkpoint& c) {
+             c.state.box = Box({10, 10, 0}, {true, true, false});
+             c.state.rods.centre[0].z = 2.0;
          }},
         {"centre in row 1 = nan", [&](Checkpoint& c) { c.state.rods.centre[1].y = nan; }},
         {"centre in row 0 = 0.5", [&](Checkpoint& c) { c.state.rods.centre[0].x = 0.5; }},

@@ -102,7 +102,9 @@ TEST_CASE("a volume fraction becomes edges of the same shape") {
     CHECK(volume / (last.x * last.y * last.z) == doctest::Approx(0.3).epsilon(1e-14));
     CHECK(last.y / last.x == doctest::Approx(2.0));
     CHECK(last.z / last.x == doctest::Approx(4.0));
-    scene.box = {std::nullopt, {1, 1, 1}, Vec3{20, 10, 30}, {true, true, true}};
+    scene.box = {};
+    scene.box.edges = Vec3{20, 10, 30};
+    scene.box.periodic = {true, true, true};
     CHECK(ramp_of_edges(scene, volume)[0].value.x / ramp_of_edges(scene, volume)[0].value.y == doctest::Approx(2.0));
 }
 
@@ -117,7 +119,9 @@ TEST_CASE("an automatic step is short enough for the hottest, the fastest and th
     CHECK(automatic_step(scene) == doctest::Approx(0.04 / 1000.0));  // 0.04 D a step
     scene.schedule = {};
     scene.motion.brownian = false;
-    scene.box = {std::nullopt, {1, 1, 1}, Vec3{40, 40, 40}, {true, true, true}};
+    scene.box = {};
+    scene.box.edges = Vec3{40, 40, 40};
+    scene.box.periodic = {true, true, true};
     scene.schedule.edges = {{2.0, {20, 20, 20}}};
     // edges lose 10 a time of 20 at the end: rods of 4 D, end to end, come nearer by 0.01 D in a step of 0.005
     CHECK(automatic_step(scene) == doctest::Approx(0.005));
@@ -159,7 +163,9 @@ TEST_CASE("bad schedules: one problem each, and the key that has it") {
                  }),
                  "schedule.volume_fraction changes edge z, along which the box is open"));
     CHECK(refusal([](Scene& s) {
-              s.box = {std::nullopt, {1, 1, 1}, Vec3{20, 20, 20}, {true, true, false}};
+              s.box = {};
+              s.box.edges = Vec3{20, 20, 20};
+              s.box.periodic = {true, true, false};
               s.schedule.edges = {{1.0, {18, 18, 20}}};
           }) == "");
     CHECK(begins(refusal([](Scene& s) {

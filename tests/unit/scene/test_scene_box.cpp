@@ -9,11 +9,11 @@
 using namespace jostle;
 
 TEST_CASE("close packing: spheres, and rods that stand in hexagonal layers") {
-    CHECK(close_packing(0.0) == doctest::Approx(std::numbers::pi / std::sqrt(18.0)).epsilon(1e-14));
-    CHECK(close_packing(1e8) == doctest::Approx(std::numbers::pi / std::sqrt(12.0)).epsilon(1e-7));
+    CHECK(close_packing(0.0, 3) == doctest::Approx(std::numbers::pi / std::sqrt(18.0)).epsilon(1e-14));
+    CHECK(close_packing(1e8, 3) == doctest::Approx(std::numbers::pi / std::sqrt(12.0)).epsilon(1e-7));
     // hexagonal layers of standing rods: cylinder parts of height L, caps as in close-packed spheres. Cell of 1 rod:
     // area sqrt(3)/2 times height L + sqrt(2/3)
-    CHECK(close_packing(5.0) ==
+    CHECK(close_packing(5.0, 3) ==
           doctest::Approx(rod_volume(5.0, 1.0) / (std::sqrt(0.75) * (5.0 + std::sqrt(2.0 / 3.0)))).epsilon(1e-14));
 }
 

@@ -41,21 +41,21 @@ TEST_CASE("a rod turns in 1/(2 D_R); tumbles turn it, too; without noise nothing
 }
 
 TEST_CASE("a crowd slows its rods: within a factor of two of measured decays of the order tensor") {
-    CHECK(crowding_slowdown(0.0, 5.0) == doctest::Approx(1.0));
+    CHECK(crowding_slowdown(0.0, 5.0, 3) == doctest::Approx(1.0));
     const auto within_two = [](double estimate, double measured) {
         return estimate < 2.0 * measured && estimate > 0.5 * measured;
     };
     // 1/(6 D_R) alone: 11.7, 29.4 and 128 kT^-1 D^3 mu for L/D = 3, 5 and 10; measured 27.5, 209, 56, 380 to 470, 490
     // to 660.
-    CHECK(within_two(crowding_slowdown(0.3, 3.0), 2.34));
-    CHECK(within_two(crowding_slowdown(0.5, 3.0), 17.8));
-    CHECK(within_two(crowding_slowdown(0.2, 5.0), 1.9));
-    CHECK(within_two(crowding_slowdown(0.35, 5.0), 14.8));
-    CHECK(within_two(crowding_slowdown(0.2, 10.0), 4.5));
-    CHECK(crowding_slowdown(0.2, 0.0) < 2.0);
+    CHECK(within_two(crowding_slowdown(0.3, 3.0, 3), 2.34));
+    CHECK(within_two(crowding_slowdown(0.5, 3.0, 3), 17.8));
+    CHECK(within_two(crowding_slowdown(0.2, 5.0, 3), 1.9));
+    CHECK(within_two(crowding_slowdown(0.35, 5.0, 3), 14.8));
+    CHECK(within_two(crowding_slowdown(0.2, 10.0, 3), 4.5));
+    CHECK(crowding_slowdown(0.2, 0.0, 3) < 2.0);
     for (const double phi : {0.1, 0.3, 0.5, 0.7, 0.9})
         for (const double ratio : {0.0, 1.0, 5.0, 20.0, 100.0}) {
-            CHECK(crowding_slowdown(phi, ratio) >= 1.0);
-            CHECK(crowding_slowdown(phi, ratio) <= 100.0);
+            CHECK(crowding_slowdown(phi, ratio, 3) >= 1.0);
+            CHECK(crowding_slowdown(phi, ratio, 3) <= 100.0);
         }
 }

@@ -93,10 +93,10 @@ TEST_CASE("aligned starts keep their axis, any axis, up to phi = 0.50") {
 
 TEST_CASE("random starts of rods that should order are warned of, and others are not") {
     // Where simulations have the isotropic phase end: 0.405 to 0.42 for L/D = 5 (McGrother et al. 1996).
-    CHECK(isotropic_limit(5.0) == doctest::Approx(0.412).epsilon(0.02));
-    CHECK(std::isinf(isotropic_limit(3.0)));
+    CHECK(isotropic_limit(5.0, 3) == doctest::Approx(0.412).epsilon(0.02));
+    CHECK(std::isinf(isotropic_limit(3.0, 3)));
     // Onsager's limit of long rods, (pi/4) n L^2 D = 3.29, and 5 % more: phi (L/D) = 3.45 where phi is small.
-    CHECK(isotropic_limit(1e5) * 1e5 == doctest::Approx(3.45).epsilon(0.01));
+    CHECK(isotropic_limit(1e5, 3) * 1e5 == doctest::Approx(3.45).epsilon(0.01));
     Scene scene = scene_of(100, 5.0, StartKind::random);
     CHECK(start_warning(scene, 0.40).empty());
     CHECK(start_warning(scene, 0.43).find("about 0.41") != std::string::npos);

@@ -89,7 +89,9 @@ TEST_CASE("a box that is squeezed takes the centres with it") {
     scene.motion.brownian = false;
     scene.schedule.edges = {{0.5, {900, 1000, 1100}}, {1.0, {1000, 900, 800}}};
     scene.time.step = 0.005;
-    scene.box = {std::nullopt, {1, 1, 1}, Vec3{1000, 1000, 1000}, {true, true, true}};
+    scene.box = {};
+    scene.box.edges = Vec3{1000, 1000, 1000};
+    scene.box.periodic = {true, true, true};
     Simulation simulation = started(scene);
     const auto before = places(simulation);
     for (int step = 0; step < 100; ++step) {

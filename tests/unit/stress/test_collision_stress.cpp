@@ -159,7 +159,7 @@ TEST_CASE("eq. (1.19): n kT I + sums/V, pressure, Z") {
 
 TEST_CASE("principal stresses, anisotropy ratio and asymmetry") {
     const Mat3 symmetric = {{2, 1, 0, 1, 2, 0, 0, 0, 5}};  // eigenvalues 1, 3, 5
-    const auto principal = principal_stresses(symmetric);
+    const std::vector<double> principal = principal_stresses(symmetric).values;
     CHECK(principal[0] == doctest::Approx(1.0));
     CHECK(principal[1] == doctest::Approx(3.0));
     CHECK(principal[2] == doctest::Approx(5.0));
@@ -173,4 +173,8 @@ TEST_CASE("principal stresses, anisotropy ratio and asymmetry") {
     CHECK(std::isnan(anisotropy_ratio(Mat3{{1, 0, 0, 0, 1, 0, 0, 0, -1}})));
     CHECK(std::isnan(anisotropy_ratio(Mat3{})));
     CHECK(relative_asymmetry(Mat3{}) == 0.0);
+    const Mat3 flat = {{2, 1, 0, 1, 2, 0, 0, 0, 0}};  // of the plane: 1 and 3, whatever stands along z
+    CHECK(principal_stresses(flat, 2).values.size() == 2);
+    CHECK(anisotropy_ratio(flat, 2) == doctest::Approx(3.0));
+    CHECK(principal_stresses(flat, 2).directions[1].z == 0.0);
 }
