@@ -23,11 +23,13 @@ def test_out_of_memory(tmp_path, threads):
         write_scene(tmp_path / name, DILUTE)
     reference = finish(tmp_path / "reference", threads=threads)
     failures = 0
-    for megabytes in range(28, 400, 2 * threads):  # at first not even the libraries fit, or the second thread
+    for megabytes in range(28, 400, 2 * threads):
+        if command(tmp_path, "--version", preexec_fn=at_most(megabytes)).returncode != DONE:
+            continue  # not even the libraries fit
         result = run(tmp_path / "short", threads=threads, preexec_fn=at_most(megabytes))
         if result.returncode == DONE:
             break
-        if "loading shared libraries" in result.stderr or "the system does not start so many threads" in result.stderr:
+        if "the system does not start so many threads" in result.stderr:
             continue
         assert (result.returncode, result.stdout) == (INTERNAL, ""), result.stderr
         assert "jostle: out of memory; `jostle check SCENE.toml` estimates what a scene needs\n" in result.stderr
