@@ -126,7 +126,7 @@ def test_quiet(spheres):
     for options in (["--quiet"], ["--quiet"], ["--quiet", "--fresh"]):
         result = run(spheres, *options)
         assert (result.returncode, result.stdout, result.stderr) == (DONE, "", "")
-    write_scene(spheres / "stopped", SPHERES)
+    write_scene(spheres / "stopped", changed(SPHERES, rods={"start": "lattice"}))  # begins at once
     result = run(spheres / "stopped", "--quiet", "--walltime", "0:00:01")
     assert (result.returncode, result.stdout, result.stderr) == (STOPPED, "", "")
     write_scene(spheres, changed(SPHERES, seed=-1))
