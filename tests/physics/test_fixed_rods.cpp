@@ -11,6 +11,7 @@
 #include "jostle/setup/largest_overlap.hpp"
 #include "jostle/setup/start.hpp"
 #include "jostle/simulation/contact_by_id.hpp"
+#include "support/sample.hpp"
 
 using namespace jostle;
 
@@ -119,14 +120,10 @@ TEST_CASE(
         }
         means.push_back(sum);
     }
-    double mean = 0.0, squares = 0.0;
-    const auto count = static_cast<double>(means.size());
-    for (const double each : means) mean += each / count;
-    for (const double each : means) squares += (each - mean) * (each - mean);
-    const double error = std::sqrt(squares / (count * (count - 1.0)));
-    MESSAGE("<sum of forces> = " << mean << " +- " << error << " kT/D, exact " << exact);
-    CHECK(error < 0.05 * exact);
-    CHECK(std::fabs(mean - exact) < 4.0 * error);
+    const test::Sample forces(means);
+    MESSAGE("<sum of forces> = " << forces.mean << " +- " << forces.error << " kT/D, exact " << exact);
+    CHECK(forces.error < 0.05 * exact);
+    CHECK(forces.agrees_with(exact));
 }
 
 TEST_CASE("a crowd among fixed rods starts without overlap, and its bits do not know the rows") {

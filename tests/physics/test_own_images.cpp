@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "jostle/setup/assemble.hpp"
+#include "support/sample.hpp"
 
 using namespace jostle;
 
@@ -51,9 +52,9 @@ Measured measure(const Case& test) {
         }
         if (k >= 0) block.push_back(1.0 + sum / steps);
     }
-    for (const double Z : block) result.Z += Z / blocks;
-    for (const double Z : block) result.standard_error += (Z - result.Z) * (Z - result.Z);
-    result.standard_error = std::sqrt(result.standard_error / (blocks * (blocks - 1.0)));
+    const test::Sample sample(block);
+    result.Z = sample.mean;
+    result.standard_error = sample.error;
     return result;
 }
 

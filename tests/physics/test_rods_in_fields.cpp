@@ -104,7 +104,7 @@ TEST_CASE(
     Simulation simulation = assemble(scene, {box, make_start(scene, box)});
     const auto count = static_cast<double>(simulation.rods().size());
     std::vector<double> difference;  // of runs of steps
-    const int settling = 4000, blocks = 40, steps = 300;
+    const int settling = 4000, blocks = 40, steps = 200;
     for (int k = 0; k < settling; ++k) simulation.step();
     for (int block = 0; block < blocks; ++block) {
         double sum = 0.0;
@@ -135,7 +135,7 @@ TEST_CASE("free rods that a torque aligns have the order of Boltzmann, and its s
         CHECK(simulation.keeps_equilibrium());
         std::vector<double> squared(simulation.rods().size());
         std::vector<double> stress;
-        const int settling = 4000, blocks = 40, steps = 400;
+        const int settling = 4000, blocks = 40, steps = 200;
         for (int k = 0; k < settling; ++k) simulation.step();
         for (int block = 0; block < blocks; ++block) {
             double sum = 0.0;
