@@ -97,7 +97,7 @@ class Scene:
         ... production = 50.0
         ... ''')
         Traceback (most recent call last):
-        jostle.InputError: <text>:3:1: box.volume_fracton = 0.2: is an unknown key (allowed: "volume_fraction", "shape", "edges", "periodic"). \
+        jostle.InputError: <text>:3:1: box.volume_fracton = 0.2: is an unknown key (allowed: "dimensions", "volume_fraction", "area_fraction", "shape", "edges", "periodic"). \
 Did you mean "volume_fraction"?
         """
         if not isinstance(source, (str, os.PathLike)):

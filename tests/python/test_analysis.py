@@ -181,7 +181,7 @@ def test_of_a_run_and_of_its_file(tmp_path):
     (lambda: analysis.clusters({"centre": [[0, 0, 0]], "edges": [9, 9, 9]}, gap=-1), "is negative"),
     (lambda: analysis.clusters({"centre": [[0, 0, 0]]}, gap=1), "is missing"),
     (lambda: analysis.clusters({"centre": [[0, 0, 0]], "edges": [9, 9, 9], "colour": 1}, gap=1), "is no array of rods"),
-    (lambda: analysis.clusters({"centre": [[0, 0, 0]], "edges": [9, 9, 0]}, gap=1), "not all positive"),
+    (lambda: analysis.clusters({"centre": [[0, 0, 0]], "edges": [9, 0, 9]}, gap=1), "not all positive"),
     (lambda: analysis.clusters({"centre": [[0, 0, 0]], "edges": [9, 9, 9], "axis": [1, 1, 0]}, gap=1), "unit vectors"),
     (lambda: analysis.mean_square_displacements({"centre": [[0, 0, 0]], "edges": [9, 9, 9]}), "at least two frames"),
     (lambda: analysis.mean_square_displacements({"centre": [[[0, 0, 0]]] * 2, "edges": [9, 9, 9], "time": [1, 1]}), "does not rise"),
