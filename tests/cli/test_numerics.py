@@ -115,10 +115,3 @@ def test_too_dense_to_start(tmp_path):
     require_one_line(run(tmp_path), 'scene.toml:7:9: rods.start = "lattice": ', "do not fit into the box in rows",
                      "Use a lower volume fraction")
     assert snapshot(tmp_path) == before
-
-
-def test_a_crowd_in_which_sweeps_went_round_in_circles(tmp_path):
-    """With all their momentum the sweeps of step 6238, of 830 cells, came back to where they had been every 6750 sweeps."""
-    scene = (SCENES / "colony.toml").read_text().replace("production = 30.0", "production = 31.25")
-    (tmp_path / "scene.toml").write_text(scene)
-    assert run(tmp_path).returncode == DONE

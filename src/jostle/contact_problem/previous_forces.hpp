@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -19,5 +20,13 @@ std::vector<PreviousForce> previous_forces(const Contacts& contacts, std::span<c
 /// touched in several images, the largest. Empty if there were none.
 std::vector<double> starting_forces(const Contacts& contacts, std::span<const std::uint64_t> ids,
                                     std::span<const PreviousForce> previous);
+
+/// Whether so many forces push that it pays to find contacts early, and to sweep with momentum (decision 0053).
+constexpr bool is_crowd(std::size_t forces) {
+    return forces >= 25000;
+}
+inline bool is_crowd(std::span<const double> start) {
+    return is_crowd(static_cast<std::size_t>(std::ranges::count_if(start, [](double force) { return force > 0.0; })));
+}
 
 }  // namespace jostle

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "jostle/contact_problem/block_gauss_seidel.hpp"
+#include "jostle/contact_problem/previous_forces.hpp"
 #include "jostle/contact_problem/sweep_momentum.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
@@ -27,7 +28,9 @@ constexpr double finest_in_float = 1e-5;
 constexpr int patience_with_float = 3;
 /// After this sweep, and three times as many, and so on, missed contacts are looked for before the sweeps have settled.
 constexpr std::uint64_t early_search = 6;
-/// Beginning warm, first where the largest change is this part of that of the first sweep, then whenever it has fallen
+/// Momentum is quick to this part of the deepest overlap, and stands still before finer tolerances.
+constexpr double finest_with_momentum = 2e-3;
+/// With momentum, first where the largest change is this part of that of the first sweep, then whenever it has fallen
 /// to this part, last at so many tolerances.
 constexpr double first_search_part = 0.1, next_search_part = 0.3, last_search_tolerances = 2.0;
 /// Beginning warm, candidates from so many tolerances on are nearly the solution.
@@ -54,7 +57,7 @@ public:
 
     /// `max_failures`: so many such verifications; 0: any number. `verify_first`: before any sweep.
     Sweeps(const ContactProblem& problem, const LcpSettings& settings, ContactSolution& solution,
-           SolverOutcome& outcome, int max_failures, bool verify_first)
+           SolverOutcome& outcome, int max_failures, bool verify_first, bool may_have_momentum)
         : problem_(problem),
           settings_(settings),
           solution_(solution),
@@ -62,6 +65,7 @@ public:
           max_failures_(max_failures),
           verify_first_(verify_first),
           warm_(!problem.start().empty()),
+          may_have_momentum_(may_have_momentum),
           sweeper_(problem, settings.tolerance, solution.gamma) {
         sweeper_.refresh(solution_);
     }
@@ -151,7 +155,7 @@ private:
         return change_ <= next_search_change_ && change_ > last_search_tolerances * settings_.tolerance;
     }
 
-    bool has_momentum() const { return warm_ && momentum_.is_trusted(); }
+    bool has_momentum() const { return may_have_momentum_ && momentum_.is_trusted(); }
 
     /// The residual is near the last change, or below it; it is computed where that is small, and now and then for the
     /// paper's norm.
@@ -174,7 +178,7 @@ private:
     ContactSolution& solution_;
     SolverOutcome& outcome_;
     int max_failures_, failures_ = 0;
-    bool verify_first_, warm_;
+    bool verify_first_, warm_, may_have_momentum_;
     BlockGaussSeidel<Real> sweeper_;
     SweepMomentum momentum_;
     std::uint64_t next_search_ = early_search, next_verification_ = 0;
@@ -187,10 +191,12 @@ ProjectedSor::ProjectedSor(const ContactProblem& problem, const LcpSettings& set
     : ContactSolver(problem, settings) {
     const auto& b = problem.constant();
     const double deepest = parallel_max(b.size(), 0.0, [&](std::size_t l) { return -b[l]; });
+    const double overlap = problem.time_step() * deepest;
+    may_have_momentum_ = settings.tolerance > finest_with_momentum * overlap && is_crowd(problem.start());
     if (settings.residual == LcpResidual::length && std::isfinite(deepest) &&
-        settings.tolerance > finest_in_float * problem.time_step() * deepest)
+        settings.tolerance > finest_in_float * overlap)
         in_float_ = std::make_unique<Sweeps<float>>(problem, settings, solution_, outcome_, patience_with_float,
-                                                    deepest == 0.0);
+                                                    deepest == 0.0, may_have_momentum_);
 }
 
 ProjectedSor::~ProjectedSor() = default;
@@ -211,7 +217,9 @@ bool ProjectedSor::run_to_next_stop() {
         in_float_.reset();
     }
     const bool known = in_double_ != nullptr;
-    if (!known) in_double_ = std::make_unique<Sweeps<double>>(problem_, settings_, solution_, outcome_, 0, true);
+    if (!known)
+        in_double_ =
+            std::make_unique<Sweeps<double>>(problem_, settings_, solution_, outcome_, 0, true, may_have_momentum_);
     const auto [stopped, given_up] = run(*in_double_, known && grown);
     if (given_up) in_double_->verify();
     return stopped;

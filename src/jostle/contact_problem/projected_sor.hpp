@@ -18,8 +18,9 @@ namespace jostle {
 /// two of one colour share a rod (PairColours): pairs of a colour can be solved by any threads in any order with the
 /// same result.
 ///
-/// Where the problem has forces to begin from, what is left are the slow modes of a crowd: sweeps over all contacts are
-/// then not over-relaxed, but carried on by momentum (SweepMomentum), unless that fails.
+/// Where a large problem has forces to begin from, what is left are the slow modes of a crowd. If the tolerance is not
+/// fine, sweeps over all contacts are then not over-relaxed, but carried on by momentum (SweepMomentum), unless that
+/// fails (decision 0053).
 ///
 /// Else only contacts that push, or are about to, take part in most sweeps (BlockGaussSeidel). Before the result is
 /// called solved, forces and velocities are computed anew from gamma, and the residual over all contacts from them. It
@@ -38,6 +39,7 @@ private:
 
     std::unique_ptr<Sweeps<float>> in_float_;
     std::unique_ptr<Sweeps<double>> in_double_;
+    bool may_have_momentum_ = false;
 };
 
 }  // namespace jostle

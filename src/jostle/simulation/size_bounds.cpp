@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "jostle/contact/wca_forces.hpp"
+#include "jostle/contact_problem/previous_forces.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
@@ -12,9 +13,9 @@ namespace {
 
 // Lengths in mean diameters, chosen by the time of a step: they change speed, and results within the tolerance.
 
-/// A pair whose gap after the known motion is wider than touching by this much is inactive; where steps begin warm,
-/// crowds push rods farther than noise would.
-constexpr double activation_margin_per_diameter = 0.02, activation_margin_if_warm = 0.04;
+/// A pair whose gap after the known motion is wider than touching by this much is inactive; crowds push
+/// rods farther than noise would.
+constexpr double activation_margin_per_diameter = 0.02, activation_margin_in_a_crowd = 0.04;
 /// How far rods go before the neighbour list is built again: this at the default step, less at shorter ones (the
 /// shorter the step, the less often lists are built).
 constexpr double skin_per_diameter = 0.5, skin_per_length = 0.13, displacement_at_default_step = 0.07;
@@ -22,8 +23,8 @@ constexpr double skin_per_diameter = 0.5, skin_per_length = 0.13, displacement_a
 /// than pairs that a list costs time for then.
 constexpr double crowd = 3.0, max_skin_when_dilute = 2.0;
 /// How far forces may displace rods before all their neighbours are looked at: at most so far, and so many mean
-/// Brownian displacements, for these bring rods together. Without noise, or where it is weak and steps begin warm,
-/// displacements add up through crowds.
+/// Brownian displacements, for these bring rods together. Without noise, and in crowds,
+/// displacements add up.
 constexpr double max_displacement_limit = 0.2, limit_per_displacement = 3.0;
 
 double mean_of(const std::vector<double>& values) {
@@ -60,8 +61,9 @@ SearchRanges search_ranges(const State& state, const KnownMotion& known, const S
                            .skin = skin_per_diameter * mean_diameter + skin_per_length * mean_length,
                            .activation_margin = activation_margin_per_diameter * mean_diameter,
                            .range = settings.rods_are_soft() ? (wca_range - 1.0) * sizes.max_diameter : settings.range};
-    if (settings.warm_start) ranges.activation_margin = activation_margin_if_warm * mean_diameter;
-    if (settings.kT == 0.0 || settings.warm_start) return ranges;
+    const bool crowded = is_crowd(state.previous_forces.size());
+    if (crowded) ranges.activation_margin = activation_margin_in_a_crowd * mean_diameter;
+    if (settings.kT == 0.0 || crowded) return ranges;
     const double displacement = mean_of(known.displacement);
     // Not below half the margin: the neighbour list must hold every pair that may come within it.
     ranges.displacement_limit =
