@@ -153,6 +153,10 @@ std::string summary_text(const Json& summary, const jostle::Scene& scene) {
         if (summary.contains(key) && !(walls && is_third_of_trace(key)))
             text += line(name, mean_text(summary[key], scene) + "  " + support_text(summary[key], withheld));
     if (summary.contains("flow")) text += text_of_flow(summary["flow"], scene, withheld);
+    if (summary.contains("viscosity_at_rest") && !summary["viscosity_at_rest"]["mean"].is_null()) {
+        const Json& viscosity = summary["viscosity_at_rest"];
+        text += line("viscosity at rest", mean_text(viscosity, scene) + "  " + support_text(viscosity, withheld));
+    }
     if (summary.contains("pressure_control")) {
         const Json& control = summary["pressure_control"];
         for (const auto& [key, name] : {std::pair{"volume_fraction", "volume fraction"}, {"Z", "Z = P V/(N kT)"}})

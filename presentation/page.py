@@ -19,7 +19,8 @@ POLICY = ("default-src 'none'; script-src 'unsafe-inline' data:; style-src 'unsa
 AVERAGES = {"Z": "compressibility factor Z", "pressure": "pressure", "pressure_collision": "collision pressure",
             "pressure_springs": "pressure of springs", "pressure_active": "active pressure",
             "nematic_order": "nematic order S", "anisotropy": "stress anisotropy",
-            "anisotropy_collision": "anisotropy of the collision stress"}
+            "anisotropy_collision": "anisotropy of the collision stress",
+            "viscosity_at_rest": "viscosity at rest, of Brownian motion and collisions"}
 CHECKS = {"total_stress_ratio": "stress along/across the director", "collision_stress_ratio": "collision stress along/across the director"}
 KEY_AVERAGES = {"Z": "Z", "pressure": "pressure", "pressure_active": "active pressure", "nematic_order": "nematic order S"}
 SIGNS = {"good": "✓", "bad": "!", "open": "·"}

@@ -16,9 +16,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* what_it_is =
-    "of Brownian motion and collisions: without the fluid's own viscosity, Einstein's term and the drag stresslets of "
-    "the rods";
 /// Standard errors between the two sides of the identity, the largest of six elements (false alarm 4e-6 each).
 constexpr double agreement = 5.0;
 /// A period of fewer rows tells no sine from a cosine.
@@ -58,7 +55,7 @@ Json steady_entry(const Scene& scene, const SeriesTable& series, std::size_t fir
     Json flow = {{"shear_rate", {{"mean", rate}, {"unit", unit_of(scene, dimension::rate)}}},
                  {"strain", strain.back()}};
     flow["viscosity"] = entry(viscosity_unit, [&](const auto& row) { return -shear_stress(row) / rate; });
-    flow["viscosity"]["definition"] = what_it_is;
+    flow["viscosity"]["definition"] = definition_of_viscosity;
     std::vector<double> by_turning = turning_stress(series, first)[1];
     for (double& value : by_turning) value /= -rate;
     flow["viscosity_of_turning"] = described(average(by_turning), viscosity_unit);
@@ -135,7 +132,7 @@ Json oscillating_entry(const Scene& scene, const SeriesTable& series, std::size_
     entry["storage_modulus"] = described(average(moduli.storage), unit);
     entry["loss_modulus"] = described(average(moduli.loss), unit);
     for (const char* name : {"storage_modulus", "loss_modulus"}) {
-        entry[name]["definition"] = what_it_is;
+        entry[name]["definition"] = definition_of_viscosity;
         if (!moduli.storage.empty()) continue;
         entry[name]["mean"] = nullptr;
         entry[name]["no_standard_error_because"] =

@@ -5,6 +5,11 @@
 
 namespace jostle {
 
+/// What is in a viscosity, and what is not.
+inline constexpr const char* definition_of_viscosity =
+    "of Brownian motion and collisions: without the fluid's own viscosity, Einstein's term and the drag stresslets of "
+    "the rods";
+
 /// What a flow tells of the rods, from row `first` on: in a steady one viscosity and normal stress differences, in one
 /// to and fro the moduli (theory, section 8). `stress`: the nine columns of the whole stress.
 nlohmann::ordered_json flow_entry(const Scene& scene, const SeriesTable& series, std::size_t first,

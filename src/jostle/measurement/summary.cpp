@@ -12,6 +12,7 @@
 #include "jostle/measurement/stress_columns.hpp"
 #include "jostle/measurement/stress_ratio_checks.hpp"
 #include "jostle/measurement/summary_entries.hpp"
+#include "jostle/measurement/viscosity_at_rest.hpp"
 #include "jostle/measurement/wall_columns.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/run_files/version.hpp"
@@ -176,15 +177,20 @@ Json fixed_rods_entry(const Rods& fixed, const Box& box, const Columns& force, c
             {"force", {{"mean", means}, {"standard_error", errors}, {"unit", unit}}}};
 }
 
+double time_of_a_row(const SeriesTable& series, double begin) {
+    return (series.column("time").back() - begin) / static_cast<double>(series.rows());
+}
+
+FreeClocks clocks_of(const Scene& scene, const Simulation& simulation) {
+    return free_clocks(scene_at_end(scene), *simulation.mobility().at(simulation.rods(), simulation.box()),
+                       simulation.rods());
+}
+
 /// The window of the rows so far.
 ProductionWindow window_of(const Scene& scene, const Simulation& simulation, const SeriesTable& series, double begin) {
     if (simulation.rods().size() == 0) refuse_to_average("all cells have died", "");
     if (series.rows() == 0) refuse_to_average("the series has no row yet", "Make more steps");
-    ProductionWindow window = production_window(
-        scene, series,
-        free_clocks(scene_at_end(scene), *simulation.mobility().at(simulation.rods(), simulation.box()),
-                    simulation.rods()),
-        begin);
+    ProductionWindow window = production_window(scene, series, clocks_of(scene, simulation), begin);
     if (window.first_row >= series.rows())
         refuse_to_average(fmt::format("no row is of production: equilibration takes a time of {:.6g}, and it is {:.6g}",
                                       window.equilibration_time, simulation.clock().time),
@@ -255,7 +261,12 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
         summary["stress_torques"] =
             tensor_entry(window_columns(series, first, torque_stress_column_names), stress_unit);
     if (swims(scene)) summarise_active_stress(series, first, stress_unit, summary);
-    if (flows(scene)) summary["flow"] = flow_entry(scene, series, first, stress);
+    if (flows(scene))
+        summary["flow"] = flow_entry(scene, series, first, stress);
+    else if (thermal)
+        summary["viscosity_at_rest"] =
+            viscosity_at_rest_entry(scene, simulation, window, stress, time_of_a_row(series, begin),
+                                    average_of("nematic_order").mean, clocks_of(scene, simulation));
     summary["principal_stresses"] = mean_principal_stresses(stress, stress_unit, dimensions);
     summary["principal_stresses_collision"] = mean_principal_stresses(collision, stress_unit, dimensions);
     if (scene.output.stress_conventions)

@@ -80,6 +80,7 @@ Json tensor_entry(const Columns& columns, const std::string& unit) {
 
 void withhold_errors(Json& entry, const std::string& reason) {
     if (!entry.is_object()) return;
+    if (entry.contains("no_standard_error_because") && entry["mean"].is_null()) return;  // it has a reason of its own
     if (entry.contains("agree")) {  // a check that fails is told all the same
         if (entry["agree"] == Json(true)) entry["agree"] = nullptr;
     } else if (entry.contains("standard_error")) {
