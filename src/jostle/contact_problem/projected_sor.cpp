@@ -132,7 +132,8 @@ private:
     }
 
     bool is_interrupted() {
-        if (outcome_.iterations % sweeps_between_questions != 0 || !settings_.is_interrupted()) return false;
+        if (outcome_.iterations % sweeps_between_questions != 0) return false;
+        if (!problem_.domain().ranks().any(settings_.is_interrupted())) return false;
         outcome_.status = LcpStatus::interrupted;
         return true;
     }
@@ -186,7 +187,8 @@ private:
 ProjectedSor::ProjectedSor(const ContactProblem& problem, const LcpSettings& settings)
     : ContactSolver(problem, settings) {
     const auto& b = problem.constant();
-    const double deepest = parallel_max(b.size(), 0.0, [&](std::size_t l) { return -b[l]; });
+    const double deepest =
+        problem.domain().ranks().largest(parallel_max(b.size(), 0.0, [&](std::size_t l) { return -b[l]; }));
     if (settings.residual == LcpResidual::length && std::isfinite(deepest) &&
         settings.tolerance > finest_in_float * problem.time_step() * deepest)
         in_float_ = std::make_unique<Sweeps<float>>(problem, settings, solution_, outcome_, patience_with_float,
