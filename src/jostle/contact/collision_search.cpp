@@ -61,14 +61,29 @@ JOSTLE_VECTORISED void find_bounds(std::size_t count, Batch& batch) {
 
 }  // namespace
 
+namespace {
+
+double interaction_range(const StepGeometry& step, std::size_t row) {
+    return std::max(step.displacement[row] + step.shift.part[row] + step.ranges.displacement_limit,
+                    0.5 * step.ranges.range);
+}
+
+}  // namespace
+
+bool CollisionSearch::is_covered(const StepGeometry& step) {
+    interaction_range_.resize(step.rods.size());
+    parallel_for(step.rods.size(), [&](std::size_t i) { interaction_range_[i] = interaction_range(step, i); });
+    largest_range_ = parallel_max(step.rods.size(), 0.0, [&](std::size_t i) { return interaction_range_[i]; });
+    return neighbours_.covers(step.rods, step.box, interaction_range_);
+}
+
 double CollisionSearch::find(const StepGeometry& step, Contacts& contacts) {
     const Rods& rods = step.rods;
     interaction_range_.resize(rods.size());
     bounds_.resize(rods.size());
     parallel_for(rods.size(), [&](std::size_t i) {
         const double shift = step.shift.part[i];
-        interaction_range_[i] =
-            std::max(step.displacement[i] + shift + step.ranges.displacement_limit, 0.5 * step.ranges.range);
+        interaction_range_[i] = interaction_range(step, i);
         bounds_[i] = {rods.centre[i],
                       in_float(rods.axis[i]),
                       in_float(step.known.centre[i] - rods.centre[i]),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -62,6 +63,16 @@ public:
     /// To be told where it is sheared, and all centres with it: x by `strain` y. Images have to keep their numbers.
     void shear(double strain) { neighbours_.shear(strain); }
 
+    // Where other ranks have rods, too (NeighbourList):
+
+    /// Whether the list covers the step; if not on any rank, all have to build it anew, of gaps below twice the
+    /// largest `range_needed` of them and the skin.
+    bool is_covered(const StepGeometry& step);
+    double range_needed() const { return std::max(largest_range_, neighbours_.lacking_range()); }
+    /// Whether the last search for violated pairs would have had to look farther than the list does.
+    bool lacks_pairs() const { return neighbours_.lacking_range() > 0.0; }
+    NeighbourList& neighbours() { return neighbours_; }
+
     /// Forgets the neighbour list (rods were added, removed or renumbered).
     void invalidate() { neighbours_.invalidate(); }
 
@@ -109,6 +120,7 @@ private:
 
     NeighbourList neighbours_{0.0};
     std::vector<double> interaction_range_;      ///< (N) displacement + shift + displacement limit
+    double largest_range_ = 0.0;                 ///< of these, at the last `is_covered`
     std::vector<RodBounds> bounds_;              ///< (N)
     std::vector<Found> shares_;                  ///< (threads), in the order of their blocks
     std::vector<InBlock> in_block_;              ///< (blocks)

@@ -7,28 +7,32 @@
 
 namespace jostle {
 
-ContactMatrix::ContactMatrix(const Contacts& contacts, std::span<const std::uint64_t> ids, Include include)
+ContactMatrix::ContactMatrix(const Contacts& contacts, std::span<const std::uint64_t> ids, Include include,
+                             std::size_t always_from)
     : contacts_(contacts), ids_(ids), local_index_(ids.size(), no_local_index) {
     if (include == Include::all_rods) {
         rows_.resize(ids.size());
         for (std::uint32_t row = 0; row < ids.size(); ++row) rows_[row] = local_index_[row] = row;
     }
     extend();
+    for (std::size_t row = always_from; row < ids.size(); ++row) numbered(static_cast<std::uint32_t>(row));
+}
+
+/// The local index of a row, which it gets if it has none.
+std::uint32_t ContactMatrix::numbered(std::uint32_t row) {
+    if (local_index_[row] == no_local_index) {
+        local_index_[row] = static_cast<std::uint32_t>(rows_.size());
+        rows_.push_back(row);
+    }
+    return local_index_[row];
 }
 
 void ContactMatrix::extend() {
-    const auto local_index_of = [this](std::uint32_t row) {
-        if (local_index_[row] == no_local_index) {
-            local_index_[row] = static_cast<std::uint32_t>(rows_.size());
-            rows_.push_back(row);
-        }
-        return local_index_[row];
-    };
     rod_pairs_.reserve(contacts_.size());
     for (std::size_t l = rod_pairs_.size(); l < contacts_.size(); ++l) {
         const std::uint32_t body = contacts_.contact[l].i;
-        const std::uint32_t i = is_fixed(body) ? no_local_index : local_index_of(body);
-        rod_pairs_.push_back({i, local_index_of(contacts_.contact[l].j)});
+        const std::uint32_t i = is_fixed(body) ? no_local_index : numbered(body);
+        rod_pairs_.push_back({i, numbered(contacts_.contact[l].j)});
     }
     begin_.clear();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -47,9 +48,11 @@ class ContactMatrix {
 public:
     enum class Include { rods_with_contacts, all_rods };
 
-    /// `ids`: (N) of the rows that contacts refer to. Held by reference, too.
+    /// `ids`: (N) of the rows that contacts refer to. Held by reference, too. `always_from`: this row and those
+    /// that follow have a part in any case.
     ContactMatrix(const Contacts& contacts, std::span<const std::uint64_t> ids,
-                  Include include = Include::rods_with_contacts);
+                  Include include = Include::rods_with_contacts,
+                  std::size_t always_from = std::numeric_limits<std::size_t>::max());
 
     /// Takes in the contacts that have been appended since.
     void extend();
@@ -86,6 +89,7 @@ public:
     void apply_transpose(std::span<const ContactVelocity> velocities, std::span<double> rates) const;
 
 private:
+    std::uint32_t numbered(std::uint32_t row);
     void list_incidence() const;
 
     const Contacts& contacts_;

@@ -107,8 +107,9 @@ private:
 class Builder {
 public:
     Builder(const Rods& rods, const Box& box, const CellList& cells, const ImageNumbers& images, double range,
-            double list_range, double units_per_length)
+            double list_range, double units_per_length, std::size_t own)
         : rods_(rods),
+          own_(own),
           box_(box),
           cells_(cells),
           images_(images),
@@ -122,7 +123,10 @@ public:
     /// each i. Fills in how many there are of each.
     void append_pairs_of(std::size_t home, Surroundings& around, NewPairs& pairs,
                          std::vector<std::size_t>& count) const {
-        const auto homes = cells_.rods_in(home);
+        const auto in_cell = cells_.rods_in(home);
+        // Pairs are those of the smaller row; the first rows are the own ones.
+        const auto homes =
+            in_cell.first(static_cast<std::size_t>(std::ranges::lower_bound(in_cell, own_) - in_cell.begin()));
         if (are_near_each_other(homes)) return append_pairs_of(home, homes, around, pairs, count);
         for (std::size_t k = 0; k < homes.size(); ++k) append_pairs_of(home, homes.subspan(k, 1), around, pairs, count);
     }
@@ -194,6 +198,7 @@ private:
     }
 
     const Rods& rods_;
+    std::size_t own_;
     const Box& box_;
     const CellList& cells_;
     const ImageNumbers& images_;
@@ -223,6 +228,10 @@ void NeighbourList::widen(const Rods& rods, const Box& box, std::span<const doub
     if (!is_too_far) return;
     std::vector<double> needed(ranges.begin(), ranges.end());
     for (const auto& [row, beyond] : farther) needed[row] += beyond;
+    if (is_of_own_rods_) {
+        lacking_range_ = *std::ranges::max_element(needed);
+        return;
+    }
     built_while_widened_ = refresh(rods, box, needed) || built_while_widened_;
 }
 
@@ -246,13 +255,44 @@ void NeighbourList::shear(double strain) {
 }
 
 bool NeighbourList::refresh(const Rods& rods, const Box& box, std::span<const double> ranges) {
-    extent_.resize(rods.size());
-    crossed_.resize(rods.size());
-    if (reference_.centre.size() == rods.size() && find_extents(rods, box, ranges) <= 0.5 * list_range_) return false;
+    if (covers(rods, box, ranges) || is_of_own_rods_) return false;
     const double largest_range = parallel_max(rods.size(), 0.0, [&](std::size_t i) { return ranges[i]; });
-    build(rods, box, 2.0 * (largest_range + skin_));
+    build(rods, box, 2.0 * (largest_range + skin_), rods.size());
     parallel_for(rods.size(), [&](std::size_t i) { extent_[i] = in_units(ranges[i]); });
     return true;
+}
+
+void NeighbourList::build_of_own(const Rods& rods, const Box& box, double list_range, std::size_t own) {
+    is_of_own_rods_ = true;
+    crossed_.resize(rods.size());
+    build(rods, box, list_range, own);
+}
+
+std::vector<std::uint32_t> NeighbourList::rows_with_pairs(std::size_t own) const {
+    std::vector<std::uint8_t> has_pair(reference_.centre.size(), 0);
+    for (const std::uint32_t j : j_) has_pair[j] = 1;
+    std::vector<std::uint32_t> rows;
+    for (std::uint32_t row = 0; row < has_pair.size(); ++row)
+        if (row < own || has_pair[row] == 1) rows.push_back(row);
+    return rows;
+}
+
+void NeighbourList::keep(std::span<const std::uint32_t> rows) {
+    std::vector<std::uint32_t> new_row(reference_.centre.size(), 0);
+    const auto take = [&](auto& values) {
+        for (std::size_t k = 0; k < rows.size(); ++k) values[k] = values[rows[k]];
+        values.resize(rows.size());
+    };
+    for (std::uint32_t k = 0; k < rows.size(); ++k) new_row[rows[k]] = k;
+    take(reference_.centre);
+    take(reference_.axis);
+    take(reference_.image);
+    take(reference_.length);
+    take(crossed_);
+    parallel_for(j_.size(), [&](std::size_t pair) { j_[pair] = new_row[j_[pair]]; });
+    for (std::size_t k = 0; k < rows.size(); ++k) begin_[k] = begin_[rows[k]];  // rows without pairs between
+    begin_.resize(rows.size());
+    begin_.push_back(j_.size());
 }
 
 /// Fills in d_i + range_i, and returns the largest.
@@ -295,7 +335,7 @@ void NeighbourList::find_closeness(std::size_t begin, std::size_t end, std::uint
     extents_less_gaps(end - begin, j_.data() + begin, gap_.data() + begin, extent_.data(), closeness);
 }
 
-void NeighbourList::build(const Rods& rods, const Box& box, double list_range) {
+void NeighbourList::build(const Rods& rods, const Box& box, double list_range, std::size_t own) {
     list_range_ = list_range;
     reference_.centre.resize(rods.size());
     reference_.axis.resize(rods.size());
@@ -317,7 +357,7 @@ void NeighbourList::build(const Rods& rods, const Box& box, double list_range) {
     const ImageNumbers images(cells.farthest_image());
     images_ = images.all();
     units_per_length_ = list_range > 0.0 ? units_per_list_range / list_range : 0.0;
-    const Builder builder(rods, box, cells, images, range, list_range, units_per_length_);
+    const Builder builder(rods, box, cells, images, range, list_range, units_per_length_, own);
     std::vector<NewPairs> blocks((cells.size() + cells_per_block - 1) / cells_per_block);
     begin_.assign(rods.size() + 1, 0);
     parallel_for_blocks(cells.size(), cells_per_block, [&](std::size_t block, std::size_t first, std::size_t last) {

@@ -30,6 +30,7 @@ public:
     bool update(const Rods& rods, const Box& box, std::span<const double> ranges) {
         extent_within_.clear();
         built_while_widened_ = false;
+        lacking_range_ = 0.0;
         return refresh(rods, box, ranges);
     }
 
@@ -42,6 +43,29 @@ public:
     /// After an `update` with `ranges`: lets some rods come farther, in place of earlier such ones. `was_close` then
     /// tells which pairs were close without.
     void widen(const Rods& rods, const Box& box, std::span<const double> ranges, std::span<const BeyondRange> farther);
+
+    // Where other ranks have rods, too, only those near by are known, and this only up to some gap. The list is then
+    // built when it is told to be, by all ranks together, and holds the pairs of this rank's own rods.
+
+    /// Builds the list, of gaps below `list_range`, of pairs with at least one of the first `own` rods. From now on
+    /// `update` and `widen` do not build it; the caller has to ask whether it covers what they need.
+    void build_of_own(const Rods& rods, const Box& box, double list_range, std::size_t own);
+
+    /// Whether `update` would not have to build it.
+    bool covers(const Rods& rods, const Box& box, std::span<const double> ranges) {
+        extent_.resize(rods.size());
+        crossed_.resize(rods.size());
+        return reference_.centre.size() == rods.size() && find_extents(rods, box, ranges) <= 0.5 * list_range_;
+    }
+
+    /// The largest range that the last `widen` asked for and the list does not cover; 0 if there is none.
+    double lacking_range() const { return lacking_range_; }
+
+    /// The rows that have a pair, and all of the first `own`.
+    std::vector<std::uint32_t> rows_with_pairs(std::size_t own) const;
+
+    /// Leaves out all rows but these, ascending, which have all pairs.
+    void keep(std::span<const std::uint32_t> rows);
 
     /// To be told where the box is stretched, and all centres with it: gaps of the pairs that count change little.
     void stretch(const Vec3& by);
@@ -100,7 +124,7 @@ private:
     bool refresh(const Rods& rods, const Box& box, std::span<const double> ranges);
     double find_extents(const Rods& rods, const Box& box, std::span<const double> ranges);
     std::int32_t in_units(double extent) const;
-    void build(const Rods& rods, const Box& box, double list_range);
+    void build(const Rods& rods, const Box& box, double list_range, std::size_t own);
     void find_closeness(std::size_t begin, std::size_t end, std::uint32_t* i, std::int32_t* closeness) const;
 
     double skin_;
@@ -123,6 +147,8 @@ private:
     std::vector<std::int32_t> extent_;                  ///< (N) d_i + range_i at the last update, in units, rounded up
     std::vector<std::int32_t> extent_within_;           ///< (N) before the list was widened, or none
     bool built_while_widened_ = false;
+    bool is_of_own_rods_ = false;  ///< and not built but when told to
+    double lacking_range_ = 0.0;
 };
 
 }  // namespace jostle

@@ -30,7 +30,8 @@ bool active_at_first(const CoupledBlock&) {
 template <class Real>
 BlockGaussSeidel<Real>::BlockGaussSeidel(const ContactProblem& problem, double tolerance,
                                          const std::vector<double>& start)
-    : matrix_(problem.matrix()),
+    : problem_(problem),
+      matrix_(problem.matrix()),
       b_(problem.constant()),
       start_(start),
       activation_threshold_(activation_tolerances * tolerance / problem.time_step()) {
@@ -40,16 +41,45 @@ BlockGaussSeidel<Real>::BlockGaussSeidel(const ContactProblem& problem, double t
 template <class Real>
 void BlockGaussSeidel<Real>::extend() {
     velocities_.resize(matrix_.rods().size());
-    const auto& new_pairs = pair_colours_.extend(matrix_.contact_matrix());
+    const Domain& domain = problem_.domain();
+    const auto& new_pairs = pair_colours_.extend(matrix_.contact_matrix(), domain);
     colours_.resize(new_pairs.size());
+    for (std::size_t k = 0; k < colours_.size(); ++k)
+        if (domain.is_shared())
+            append_between_ranks(colours_[k], new_pairs[k]);
+        else
+            append(colours_[k].here, new_pairs[k]);
+    if (!domain.is_shared()) return;
+    std::vector<ContactPair> between;
+    for (const Colour& colour : colours_) between.insert(between.end(), colour.between.begin(), colour.between.end());
+    all_messages_ = BorderMessages(domain, matrix_.contact_matrix(), between, sizeof velocities_.front());
+}
+
+template <class Real>
+void BlockGaussSeidel<Real>::append(Kinds& contacts, std::span<const ContactPair> new_pairs) {
     std::vector<ContactPair> singles, others;
-    for (std::size_t k = 0; k < colours_.size(); ++k) {
-        singles.clear();
-        others.clear();
-        for (const ContactPair& pair : new_pairs[k]) (pair.count == 1 ? singles : others).push_back(pair);
-        append(colours_[k].singles, singles, [this](const ContactPair& pair) { return contact_of(pair); });
-        append(colours_[k].pairs, others, [this](const ContactPair& pair) { return pair_of(pair); });
+    for (const ContactPair& pair : new_pairs) (pair.count == 1 ? singles : others).push_back(pair);
+    append(contacts.singles, singles, [this](const ContactPair& pair) { return contact_of(pair); });
+    append(contacts.pairs, others, [this](const ContactPair& pair) { return pair_of(pair); });
+}
+
+template <class Real>
+void BlockGaussSeidel<Real>::append_between_ranks(Colour& colour, std::span<const ContactPair> new_pairs) {
+    const ContactMatrix& contact_matrix = matrix_.contact_matrix();
+    std::vector<ContactPair> here, elsewhere;
+    for (const ContactPair& pair : new_pairs) {
+        (problem_.is_elsewhere()[pair.first] == 0 ? here : elsewhere).push_back(pair);
+        if (is_between_ranks(pair, contact_matrix, problem_.domain())) colour.between.push_back(pair);
     }
+    append(colour.here, here);
+    append(colour.elsewhere, elsewhere);
+    colour.messages = BorderMessages(problem_.domain(), contact_matrix, colour.between, sizeof velocities_.front());
+}
+
+/// Of ghosts, from their owners, for the pairs of a colour.
+template <class Real>
+void BlockGaussSeidel<Real>::bring_velocities(Colour& colour) {
+    colour.messages.bring(std::span(velocities_));
 }
 
 template <class Real>
@@ -65,16 +95,19 @@ double BlockGaussSeidel<Real>::sweep(double omega, SweepOver over) {
                            }));
     };
     for (Colour& colour : colours_) {
-        pass(colour.singles);
-        pass(colour.pairs);
+        bring_velocities(colour);
+        for_groups(colour.here, pass);
+        for_groups(colour.elsewhere, pass);
     }
     if (all) {
+        all_messages_.bring(std::span(velocities_));
+        const auto find = [this](auto& group) { find_active(group); };
         for (Colour& colour : colours_) {
-            find_active(colour.singles);
-            find_active(colour.pairs);
+            for_groups(colour.here, find);
+            for_groups(colour.elsewhere, find);
         }
     }
-    return largest;
+    return problem_.domain().ranks().largest(largest);
 }
 
 template <class Real>
@@ -82,24 +115,26 @@ SweepProgress BlockGaussSeidel<Real>::sweep_on(double beta, double last_change) 
     carry_on_velocities(beta);
     const Extrapolation by{beta, turning_unit * last_change * last_change};
     const LocalRods<Real> local_rods{matrix_.rods().data(), velocities_.data()};
-    std::atomic<std::int64_t> turning = 0;
+    std::atomic<std::int64_t> turning = 0, turning_elsewhere = 0;
     double largest = 0.0;
-    const auto pass = [&](auto& group) {
+    const auto pass_and_add = [&](auto& group, std::atomic<std::int64_t>& turned) {
         group.last.resize(group.items.size());
         const auto sweep_block = [&](std::size_t number) {
             const auto items = group.block(number);
             const auto last = std::span(group.last).subspan(number * group.block_size, items.size());
             const SweepProgress progress = jostle::sweep_on(items, last, by, local_rods);
-            turning += progress.turning;
+            turned += progress.turning;
             return progress.change;
         };
         largest = std::max(largest, parallel_max_of_blocks(group.active.size(), group.items.size(), sweep_block));
     };
     for (Colour& colour : colours_) {
-        pass(colour.singles);
-        pass(colour.pairs);
+        bring_velocities(colour);
+        for_groups(colour.here, [&](auto& group) { pass_and_add(group, turning); });
+        for_groups(colour.elsewhere, [&](auto& group) { pass_and_add(group, turning_elsewhere); });
     }
-    return {largest, turning};
+    const Ranks& ranks = problem_.domain().ranks();
+    return {ranks.largest(largest), ranks.sum(turning)};
 }
 
 /// V is linear in the forces: what the last change of all of them did to it is done again, `beta` times.
@@ -116,6 +151,7 @@ void BlockGaussSeidel<Real>::carry_on_velocities(double beta) {
 template <class Real>
 void BlockGaussSeidel<Real>::read_velocities(std::span<ContactVelocity> velocities) const {
     parallel_for(velocities.size(), [&](std::size_t local) { velocities[local] = velocities_[local].velocity(); });
+    problem_.fetch_velocities(velocities);
 }
 
 template <class Real>
@@ -134,6 +170,12 @@ void BlockGaussSeidel<Real>::refresh(ContactSolution& solution) {
         if (local < former_velocities_.size())
             former_velocities_[local].lanes += exact.lanes - velocities_[local].lanes;
         velocities_[local] = exact;
+    });
+    if (!problem_.domain().is_shared()) return;
+    problem_.fetch_velocities(solution.velocities);  // the forces on ghosts are not all known here
+    parallel_for(velocities_.size(), [&](std::size_t local) {
+        if (!problem_.domain().owns(matrix_.contact_matrix().rods()[local]))
+            velocities_[local] = SpatialVector<Real>(solution.velocities[local]);
     });
 }
 
@@ -232,12 +274,12 @@ void BlockGaussSeidel<Real>::find_active(Group<Item>& group) {
 template <class Real>
 template <class Body>
 void BlockGaussSeidel<Real>::for_all_forces(Body&& body) {
-    const auto pass = [&](auto items) {
-        parallel_for(items.size(), [&](std::size_t k) { for_forces(items[k], body); });
+    const auto pass = [&](auto& group) {
+        parallel_for(group.items.size(), [&](std::size_t k) { for_forces(group.items[k], body); });
     };
     for (Colour& colour : colours_) {
-        pass(std::span(colour.singles.items));
-        pass(std::span(colour.pairs.items));
+        for_groups(colour.here, pass);
+        for_groups(colour.elsewhere, pass);
     }
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "jostle/contact_problem/border_messages.hpp"
 #include "jostle/contact_problem/contact_blocks.hpp"
 #include "jostle/contact_problem/contact_problem.hpp"
 #include "jostle/contact_problem/pair_colours.hpp"
@@ -20,6 +21,9 @@ enum class SweepOver { all, active };
 /// Pairs are coloured, so that no two of a colour share a rod. A sweep over all finds those that are active: that push
 /// or may soon. Real is what velocities and single contacts are stored in; pairs, whose matrices may be nearly
 /// singular, are in double.
+///
+/// A pair between ranks is solved by both, to the same bits: before each colour the velocities of the rods that such
+/// pairs of it share are exchanged. What sweeps return is of all ranks.
 template <class Real>
 class BlockGaussSeidel {
 public:
@@ -64,21 +68,36 @@ private:
         template <class IsAwake>
         void sort_out(std::size_t first, IsAwake&& is_active);
     };
-    struct Colour {
+    struct Kinds {
         Group<ScalarBlock<Real>> singles;
         Group<CoupledBlock> pairs;
+    };
+    struct Colour {
+        Kinds here, elsewhere;             ///< elsewhere: that another rank has to add up
+        std::vector<ContactPair> between;  ///< ranks
+        BorderMessages messages;           ///< of their rods
     };
 
     ScalarBlock<Real> contact_of(const ContactPair& pair) const;
     CoupledBlock pair_of(const ContactPair& pair) const;
     template <class Item, class MakeItem>
     static void append(Group<Item>& group, std::span<const ContactPair> pairs, MakeItem&& item_of);
+    void append(Kinds& contacts, std::span<const ContactPair> new_pairs);
+    void append_between_ranks(Colour& colour, std::span<const ContactPair> new_pairs);
+    void bring_velocities(Colour& colour);
+    /// Calls body(group) for those of a colour that are not empty.
+    template <class Body>
+    static void for_groups(Kinds& contacts, Body&& body) {
+        if (!contacts.singles.items.empty()) body(contacts.singles);
+        if (!contacts.pairs.items.empty()) body(contacts.pairs);
+    }
     template <class Item>
     void find_active(Group<Item>& group);
     void carry_on_velocities(double beta);
     template <class Body>
     void for_all_forces(Body&& body);
 
+    const ContactProblem& problem_;
     const DelassusOperator& matrix_;
     const std::vector<double>& b_;
     const std::vector<double>& start_;
@@ -87,6 +106,7 @@ private:
     std::vector<SpatialVector<Real>> former_velocities_;  ///< (n) V of the forces before the last `sweep_on`
     PairColours pair_colours_;
     std::vector<Colour> colours_;
+    BorderMessages all_messages_;  ///< of all rods that pairs between ranks share
 };
 
 extern template class BlockGaussSeidel<float>;

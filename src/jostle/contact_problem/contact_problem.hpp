@@ -4,25 +4,33 @@
 
 #include "jostle/contact_problem/contact_solution.hpp"
 #include "jostle/contact_problem/delassus_operator.hpp"
+#include "jostle/domain/domain.hpp"
 #include "jostle/lcp/lcp_problem.hpp"
 
 namespace jostle {
 
 /// The contact problem of a step: forces gamma with 0 <= A gamma + b  perp  gamma >= 0 (theory, eq. 2.5), for contacts
 /// that it owns. A solver holds a reference, and takes in what is appended when it goes on.
+///
+/// Where other ranks have rods, too, it is this rank's part of the problem: all contacts of its own rods. Those with
+/// ghosts are other ranks' contacts as well, and one of the two adds them up.
 class ContactProblem {
 public:
     /// `b`: (contacts) the velocity of each gap without forces; empty where forces are not sought. `compliance`: kappa
-    /// of the DelassusOperator. `start`: (contacts) forces to begin from; empty: from 0. Holds references to rods and
-    /// mobility.
+    /// of the DelassusOperator. `start`: (contacts) forces to begin from; empty: from 0. Holds references to rods,
+    /// mobility and domain.
     ContactProblem(const Rods& rods, const MobilityOperator& mobility, Contacts contacts, std::vector<double> b,
-                   double time_step, double compliance = 0.0, std::vector<double> start = {})
+                   double time_step, double compliance = 0.0, std::vector<double> start = {},
+                   const Domain& domain = Domain::whole())
         : contacts_(std::move(contacts)),
-          contact_matrix_(contacts_, rods.id, included(mobility)),
+          contact_matrix_(contacts_, rods.id, included(mobility), domain.owned_of(rods.size())),
           matrix_(contact_matrix_, rods, mobility, compliance),
+          domain_(domain),
           b_(std::move(b)),
           start_(std::move(start)),
-          time_step_(time_step) {}
+          time_step_(time_step) {
+        note_elsewhere();
+    }
     ContactProblem(const ContactProblem&) = delete;
     ContactProblem& operator=(const ContactProblem&) = delete;
 
@@ -32,6 +40,7 @@ public:
         b_.insert(b_.end(), b.begin(), b.end());
         contact_matrix_.extend();
         matrix_.extend();
+        note_elsewhere();
     }
 
     std::size_t size() const { return contacts_.size(); }
@@ -41,7 +50,19 @@ public:
     const std::vector<double>& constant() const { return b_; }
     const std::vector<double>& start() const { return start_; }
     double time_step() const { return time_step_; }
-    LcpProblem lcp() const { return {matrix_, b_, time_step_}; }
+    LcpProblem lcp() const { return {matrix_, b_, time_step_, domain_.ranks(), is_elsewhere_}; }
+
+    const Domain& domain() const { return domain_; }
+    /// (contacts) whether another rank adds it up: that of the rod with the smaller id. Empty if there is none.
+    std::span<const std::uint8_t> is_elsewhere() const { return is_elsewhere_; }
+    /// Velocities of ghosts, (n) as a solution has them, from their owners.
+    void fetch_velocities(std::span<ContactVelocity> velocities) const {
+        ContactVelocity at_rest;  // of own rods without contacts
+        domain_.refresh<ContactVelocity>([&](std::uint32_t row) -> ContactVelocity& {
+            const std::uint32_t local = contact_matrix_.local_index()[row];
+            return local == no_local_index ? at_rest : velocities[local];
+        });
+    }
 
     /// Fills in the forces and velocities of the rods that follow from gamma.
     void complete(ContactSolution& solution) const {
@@ -58,9 +79,19 @@ private:
         return mobility.couples_rods() ? ContactMatrix::Include::all_rods : ContactMatrix::Include::rods_with_contacts;
     }
 
+    void note_elsewhere() {
+        if (!domain_.is_shared()) return;
+        for (std::size_t l = is_elsewhere_.size(); l < contacts_.size(); ++l) {
+            const Contact& contact = contacts_.contact[l];
+            is_elsewhere_.push_back(domain_.owns(is_fixed(contact.i) ? contact.j : contact.i) ? 0 : 1);
+        }
+    }
+
     Contacts contacts_;
     ContactMatrix contact_matrix_;
     DelassusOperator matrix_;
+    const Domain& domain_;
+    std::vector<std::uint8_t> is_elsewhere_;
     std::vector<double> b_, start_;
     double time_step_;
 };

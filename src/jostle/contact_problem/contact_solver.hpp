@@ -43,9 +43,10 @@ protected:
         solution_.resize(problem.contact_matrix());
     }
 
-    /// Whether contacts have been added to the problem since the last call: the solution is then as large again.
+    /// Whether contacts have been added to the problem since the last call, here or on another rank: the solution is
+    /// then as large again.
     bool problem_has_grown() {
-        if (solution_.gamma.size() == problem_.size()) return false;
+        if (!problem_.domain().ranks().any(solution_.gamma.size() != problem_.size())) return false;
         solution_.resize(problem_.contact_matrix());
         return true;
     }

@@ -1,10 +1,14 @@
 #include "jostle/contact_problem/pair_colours.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <stdexcept>
 #include <tuple>
 
 #include "jostle/contact_problem/block_problem.hpp"
+#include "jostle/contact_problem/border_messages.hpp"
+#include "jostle/error/input_error.hpp"
 #include "jostle/math/mixed_bits.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
@@ -21,6 +25,13 @@ std::uint64_t priority_of(std::uint64_t id_i, std::uint64_t id_j, const Image& i
     return hash;
 }
 
+/// The same on all ranks.
+struct PairName {
+    std::uint64_t priority = 0, i = ~std::uint64_t{0}, j = ~std::uint64_t{0};
+    Image image{};
+    bool operator==(const PairName&) const = default;
+};
+
 /// Whether i is a rod beside j: neither a fixed body, nor j itself, which meets its own image.
 bool has_other_rod(const ContactPair& pair) {
     return pair.i != no_local_index && pair.i != pair.j;
@@ -28,24 +39,89 @@ bool has_other_rod(const ContactPair& pair) {
 
 }  // namespace
 
-const std::vector<std::vector<ContactPair>>& PairColours::extend(const ContactMatrix& contact_matrix) {
+const std::vector<std::vector<ContactPair>>& PairColours::extend(const ContactMatrix& contact_matrix,
+                                                                 const Domain& domain) {
     for (auto& pairs : by_colour_) pairs.clear();
     list_new_pairs(contact_matrix);
+    if (domain.is_shared()) list_pairs_between_ranks(contact_matrix, domain);
     list_turns(contact_matrix);
     beyond_.clear();
-    while (!ready_.empty()) {
-        const std::uint32_t pair = ready_.back();
-        ready_.pop_back();
-        give_colour(pair);
-        const auto [i, j, first, count] = pairs_[pair];
-        if (has_other_rod(pairs_[pair])) advance(i);
-        advance(j);
-    }
+    colour_ready_pairs();
+    if (domain.is_shared()) colour_between_ranks(contact_matrix, domain);
     // In the order of contacts, so that neighbours in a colour are near each other in memory.
     for (std::size_t p = 0; p < pairs_.size(); ++p)
         if (colour_[p] < max_colours) by_colour_[colour_[p]].push_back(pairs_[p]);
     if (!beyond_.empty()) give_colours_beyond_most(contact_matrix);
     return by_colour_;
+}
+
+void PairColours::colour_ready_pairs() {
+    while (!ready_.empty()) {
+        const std::uint32_t pair = ready_.back();
+        ready_.pop_back();
+        give_colour(pair);
+        advance_both(pair);
+    }
+}
+
+void PairColours::list_pairs_between_ranks(const ContactMatrix& contact_matrix, const Domain& domain) {
+    is_between_.resize(pairs_.size());
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+        is_between_[p] = is_between_ranks(pairs_[p], contact_matrix, domain) ? 1 : 0;
+}
+
+/// And all that wait for those between ranks.
+void PairColours::colour_between_ranks(const ContactMatrix& contact_matrix, const Domain& domain) {
+    std::vector<std::uint32_t> waiting;
+    std::vector<ContactPair> between;
+    for (std::uint32_t p = 0; p < pairs_.size(); ++p) {
+        if (!waits_for_ranks(p)) continue;
+        waiting.push_back(p);
+        between.push_back(pairs_[p]);
+    }
+    const auto name_of = [&](std::uint32_t p) -> PairName {
+        const std::uint32_t l = pairs_[p].first;
+        return {priority_[p], contact_matrix.id_of_i(l), contact_matrix.id_of_j(l), contact_matrix.contacts().image[l]};
+    };
+    struct Standing {
+        PairName turn;  ///< whose it is
+        std::uint64_t taken;
+    };
+    BorderMessages messages(domain, contact_matrix, between, sizeof(Standing));
+    std::vector<Standing> standing(contact_matrix.rods().size());
+    for (;;) {
+        for (const ContactPair& pair : between)
+            for (const std::uint32_t local : {pair.i, pair.j})
+                standing[local] = {next_[local] < begin_[local + 1] ? name_of(turns_[next_[local]].pair) : PairName{},
+                                   taken_[local]};
+        messages.bring(std::span(standing));
+        std::vector<std::uint32_t> decided;
+        std::erase_if(waiting, [&](std::uint32_t p) {
+            const auto [i, j, first, count] = pairs_[p];
+            const PairName name = name_of(p);
+            const bool is_next =
+                standing[i].turn == name && standing[j].turn == name && is_next_of(i, p) && is_next_of(j, p);
+            if (is_next) decided.push_back(p);
+            return is_next;
+        });
+        for (const std::uint32_t p : decided) {
+            taken_[pairs_[p].i] = standing[pairs_[p].i].taken;
+            taken_[pairs_[p].j] = standing[pairs_[p].j].taken;
+            give_colour(p);
+        }
+        for (const std::uint32_t p : decided) advance_both(p);
+        colour_ready_pairs();
+        std::array<std::int64_t, 2> left_and_decided = {static_cast<std::int64_t>(waiting.size()),
+                                                        static_cast<std::int64_t>(decided.size())};
+        domain.ranks().add_up(left_and_decided);
+        if (left_and_decided[0] == 0) break;
+        if (left_and_decided[1] == 0) throw std::logic_error("ranks disagree about the pairs between them");
+    }
+    if (domain.ranks().any(!beyond_.empty()))
+        throw InputError({.key = "rods",
+                          .problem = "one of them touches more than 64 others, which is not ready for several ranks",
+                          .suggestion = "Run it on one"});
+    by_colour_.resize(static_cast<std::size_t>(domain.ranks().largest(static_cast<double>(by_colour_.size()))));
 }
 
 void PairColours::list_new_pairs(const ContactMatrix& contact_matrix) {
@@ -94,7 +170,8 @@ void PairColours::list_turns(const ContactMatrix& contact_matrix) {
     });
     ready_.clear();
     for (std::uint32_t p = 0; p < pairs_.size(); ++p)
-        if (is_next_of(pairs_[p].j, p) && (!has_other_rod(pairs_[p]) || is_next_of(pairs_[p].i, p)))
+        if (!waits_for_ranks(p) && is_next_of(pairs_[p].j, p) &&
+            (!has_other_rod(pairs_[p]) || is_next_of(pairs_[p].i, p)))
             ready_.push_back(p);
 }
 
@@ -124,10 +201,17 @@ void PairColours::give_colour(std::uint32_t number) {
     if (by_colour_.size() <= colour) by_colour_.resize(colour + 1);
 }
 
+void PairColours::advance_both(std::uint32_t number) {
+    const ContactPair& pair = pairs_[number];
+    if (has_other_rod(pair)) advance(pair.i);
+    advance(pair.j);
+}
+
 /// The pair of a rod whose turn it was has its colour: the next may be ready.
 void PairColours::advance(std::uint32_t local) {
     if (++next_[local] == begin_[local + 1]) return;
     const std::uint32_t p = turns_[next_[local]].pair;
+    if (waits_for_ranks(p)) return;
     const ContactPair& pair = pairs_[p];
     const std::uint32_t other = pair.i == local || !has_other_rod(pair) ? pair.j : pair.i;
     if (next_[other] < begin_[other + 1] && is_next_of(other, p)) ready_.push_back(p);

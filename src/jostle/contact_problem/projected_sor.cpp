@@ -136,7 +136,8 @@ private:
     }
 
     bool is_interrupted() {
-        if (outcome_.iterations % sweeps_between_questions != 0 || !settings_.is_interrupted()) return false;
+        if (outcome_.iterations % sweeps_between_questions != 0) return false;
+        if (!problem_.domain().ranks().any(settings_.is_interrupted())) return false;
         outcome_.status = LcpStatus::interrupted;
         return true;
     }
@@ -190,7 +191,8 @@ private:
 ProjectedSor::ProjectedSor(const ContactProblem& problem, const LcpSettings& settings)
     : ContactSolver(problem, settings) {
     const auto& b = problem.constant();
-    const double deepest = parallel_max(b.size(), 0.0, [&](std::size_t l) { return -b[l]; });
+    const double deepest =
+        problem.domain().ranks().largest(parallel_max(b.size(), 0.0, [&](std::size_t l) { return -b[l]; }));
     const double overlap = problem.time_step() * deepest;
     may_have_momentum_ = settings.tolerance > finest_with_momentum * overlap && is_crowd(problem.start());
     if (settings.residual == LcpResidual::length && std::isfinite(deepest) &&

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "jostle/parallel/parallel_for.hpp"
+#include "jostle/parallel/sum_over_ranks.hpp"
 
 namespace jostle {
 
@@ -19,23 +19,26 @@ double minimum(double a, double b) {
 double lcp_residual(const LcpProblem& problem, LcpResidual kind, std::span<const double> gamma,
                     std::span<const double> velocity) {
     if (kind == LcpResidual::paper) {
-        return std::sqrt(parallel_sum<double>(gamma.size(), [&](std::size_t l) {
+        return std::sqrt(sum_over_ranks<double>(problem.ranks, gamma.size(), [&](std::size_t l) {
             const double h = minimum(gamma[l], velocity[l]);
-            return h * h;
+            return problem.counts(l) ? h * h : 0.0;
         }));
     }
     const auto diagonal = problem.matrix.diagonal();
-    return problem.time_step * parallel_max(gamma.size(), 0.0, [&](std::size_t l) {
-               const double h = std::fabs(minimum(diagonal[l] * gamma[l], velocity[l]));
-               return std::isnan(h) ? INFINITY : h;
-           });
+    const double largest = parallel_max(gamma.size(), 0.0, [&](std::size_t l) {
+        const double h = std::fabs(minimum(diagonal[l] * gamma[l], velocity[l]));
+        return std::isnan(h) ? INFINITY : h;
+    });
+    return problem.time_step * problem.ranks.largest(largest);
 }
 
 LcpStatus lcp_status(const LcpProblem& problem, const LcpSettings& settings, const LcpResult& result) {
     if (!std::isfinite(result.residual)) return LcpStatus::not_finite;
     if (result.residual <= settings.tolerance) return LcpStatus::converged;
     const auto along_gamma = [&](std::span<const double> values) {
-        return parallel_sum<double>(values.size(), [&](std::size_t l) { return values[l] * result.solution[l]; });
+        return sum_over_ranks<double>(problem.ranks, values.size(), [&](std::size_t l) {
+            return problem.counts(l) ? values[l] * result.solution[l] : 0.0;
+        });
     };
     const double along_constant = -along_gamma(problem.constant);
     const double energy = along_gamma(result.velocity) + along_constant;  // gamma.A.gamma

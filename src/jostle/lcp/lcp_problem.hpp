@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "jostle/lcp/linear_operator.hpp"
+#include "jostle/parallel/ranks.hpp"
 
 namespace jostle {
 
@@ -16,6 +17,10 @@ struct LcpProblem {
     const LinearOperator& matrix;
     std::span<const double> constant;  ///< b, a velocity per contact
     double time_step = 1.0;            ///< turns the velocities A gamma + b into lengths, for the residual
+    Ranks ranks = {};                  ///< those that have the problem together: residual and status are of all of it
+    std::span<const std::uint8_t> is_elsewhere = {};  ///< (contacts) whether another rank has it to add up; or none
+
+    bool counts(std::size_t l) const { return is_elsewhere.empty() || is_elsewhere[l] == 0; }
 };
 
 /// Which numbers say that the problem is solved.

@@ -1,5 +1,7 @@
 #include "jostle/parallel/exact_sum.hpp"
 
+#include <limits>
+
 #include "jostle/math/vectorised.hpp"
 
 namespace jostle {
@@ -87,6 +89,33 @@ void ExactSum::add_all(std::span<const double> numbers) {
         all = left.data();
     }
     for (const double one : left) add(one);
+}
+
+std::array<std::int64_t, ExactSum::words> ExactSum::in_words() const {
+    ExactSum sum = *this;
+    sum.carry();
+    std::array<std::int64_t, words> numbers{};
+    std::copy(sum.digit_.begin(), sum.digit_.end(), numbers.begin());
+    numbers[digits] = std::isnan(not_finite_) ? 1 : 0;
+    numbers[digits + 1] = not_finite_ > 0.0 ? 1 : 0;
+    numbers[digits + 2] = not_finite_ < 0.0 ? 1 : 0;
+    return numbers;
+}
+
+ExactSum ExactSum::of_words(std::span<const std::int64_t, words> numbers) {
+    ExactSum sum;
+    for (unsigned k = 0; k < digits; ++k) {
+        sum.digit_[k] = numbers[k];
+        if (numbers[k] == 0) continue;
+        sum.begin_ = std::min(sum.begin_, k);
+        sum.end_ = k + 1;
+    }
+    sum.carry();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (numbers[digits] > 0) sum.not_finite_ = std::numeric_limits<double>::quiet_NaN();
+    if (numbers[digits + 1] > 0) sum.not_finite_ += infinity;
+    if (numbers[digits + 2] > 0) sum.not_finite_ -= infinity;
+    return sum;
 }
 
 }  // namespace jostle

@@ -55,6 +55,13 @@ public:
         return *this;
     }
 
+    static constexpr unsigned digits = 68;  // 2046 positions and a mantissa, and room above
+
+    /// As whole numbers: those of several sums, up to 2^30 of them, added one by one are those of all together.
+    static constexpr std::size_t words = digits + 3;
+    std::array<std::int64_t, words> in_words() const;
+    static ExactSum of_words(std::span<const std::int64_t, words> numbers);
+
     /// Rounded to the nearest double.
     double value() const {
         if (not_finite_ != 0.0) return not_finite_;  // nan is not 0 either
@@ -89,7 +96,6 @@ public:
     }
 
 private:
-    static constexpr unsigned digits = 68;                              // 2046 positions and a mantissa, and room above
     static constexpr std::uint64_t max_terms = std::uint64_t{1} << 30;  // of less than 2^32 each, in 63 bits
 
     /// Leaves digits of 0 to 2^32 - 1, but for the last, which has the sign.

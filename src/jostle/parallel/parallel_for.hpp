@@ -107,16 +107,20 @@ void parallel_for_blocks(std::size_t count, std::size_t block_size, Body&& body)
     });
 }
 
-/// The sum of term(k) over [0, count): exact and rounded once, so that neither threads nor the order of the terms
-/// matter. T is a whole number, a double, or a struct of doubles alone, each of which is summed.
+/// How sums of T are held until they are rounded: whole numbers as they are.
+template <class T>
+inline constexpr std::size_t numbers_of = std::is_integral_v<T> ? 1 : sizeof(T) / sizeof(double);
+template <class T>
+using UnroundedSum = std::array<std::conditional_t<std::is_integral_v<T>, T, ExactSum>, numbers_of<T>>;
+
+/// The sum of term(k) over [0, count), not rounded yet.
 template <class T, class Term>
-T parallel_sum(std::size_t count, Term&& term) {
+UnroundedSum<T> unrounded_sum(std::size_t count, Term&& term) {
     static_assert(std::is_integral_v<T> || (std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(double) == 0));
-    constexpr std::size_t width = std::is_integral_v<T> ? 1 : sizeof(T) / sizeof(double);
-    using Sum = std::conditional_t<std::is_integral_v<T>, T, ExactSum>;
-    std::array<Sum, width> total{};
+    constexpr std::size_t width = numbers_of<T>;
+    UnroundedSum<T> total{};
     parallel::for_shares(count, count <= parallel::serial_limit, [&](std::size_t begin, std::size_t end) {
-        std::array<Sum, width> share{};
+        UnroundedSum<T> share{};
         if constexpr (std::is_integral_v<T>) {
             for (std::size_t k = begin; k < end; ++k) share[0] += term(k);
         } else {
@@ -133,13 +137,25 @@ T parallel_sum(std::size_t count, Term&& term) {
 #pragma omp critical
         for (std::size_t n = 0; n < width; ++n) total[n] += share[n];
     });
+    return total;
+}
+
+template <class T>
+T rounded_sum(const UnroundedSum<T>& total) {
     if constexpr (std::is_integral_v<T>) {
         return total[0];
     } else {
-        std::array<double, width> sum;
-        for (std::size_t n = 0; n < width; ++n) sum[n] = total[n].value();
+        std::array<double, numbers_of<T>> sum;
+        for (std::size_t n = 0; n < sum.size(); ++n) sum[n] = total[n].value();
         return std::bit_cast<T>(sum);
     }
+}
+
+/// The sum of term(k) over [0, count): exact and rounded once, so that neither threads nor the order of the terms
+/// matter. T is a whole number, a double, or a struct of doubles alone, each of which is summed.
+template <class T, class Term>
+T parallel_sum(std::size_t count, Term&& term) {
+    return rounded_sum<T>(unrounded_sum<T>(count, term));
 }
 
 /// The largest of `floor` and all value(k) over [0, count).

@@ -88,6 +88,7 @@ std::optional<Vec3> Simulation::edges_of_step() {
 /// Now and then: rods near each other in space come near each other in memory.
 void Simulation::renumber() {
     constexpr std::uint64_t every = 512;
+    if (domain_.is_shared()) return;  // wherever rods are gathered
     if (reordered_ && state_.clock.step % every != 0) return;
     reorder(space_filling_order(state_.rods, state_.box));
     reordered_ = true;

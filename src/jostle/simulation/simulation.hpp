@@ -10,6 +10,7 @@
 #include "jostle/contact/fixed_rod_search.hpp"
 #include "jostle/contact/wall_search.hpp"
 #include "jostle/contact_problem/contact_solver.hpp"
+#include "jostle/domain/domain.hpp"
 #include "jostle/growth/growth.hpp"
 #include "jostle/parallel/thread_choice.hpp"
 #include "jostle/simulation/known_motion.hpp"
@@ -38,6 +39,18 @@ public:
     /// A step ends unmade, with LcpStatus::interrupted, where `asked` says true while its contact forces are sought.
     void interrupt_when(std::function<bool()> asked) { settings_.lcp.interrupted = std::move(asked); }
 
+    /// Makes this the part of one simulation that the calling rank has: all ranks have made it from the same state, and
+    /// each keeps its share of the rods. Whatever a step reports is then of all ranks, and what they do has the same
+    /// bits as without them; `rods()` are those of this rank, of which `domain()` knows the own ones. To be called
+    /// before the first step, as all that follows, by all ranks together. Errors: InputError for what is not ready for
+    /// several ranks.
+    void share(const Ranks& ranks);
+    const Domain& domain() const { return domain_; }
+    /// The rods of all ranks, in the order of ids: for tests and small systems.
+    Rods rods_of_all_ranks() const;
+    /// At the beginning of the next step rods may change their rank, for cuts that give all ranks the same number.
+    void rebalance() { balance_ = gathering_ = true; }
+
     /// Makes one step (step.cpp). Where contacts cannot be resolved the report says so, and the state stays as it was.
     StepReport step();
 
@@ -65,13 +78,16 @@ public:
     const std::vector<std::uint64_t>& contact_ids() const { return ids_before_.empty() ? state_.rods.id : ids_before_; }
 
 private:
+    std::optional<StepReport> attempt();
+    bool neighbours_are_known(const StepGeometry& geometry);
+    void gather(double skin);
     std::optional<Vec3> follow_schedule();
     std::optional<Vec3> edges_of_step();
     void renumber();
     void rows_change();
     ContactProblem posed_problem(const MobilityOperator& mobility, Contacts found) const;
     std::vector<double> gap_velocities(const Contacts& contacts) const;
-    ContactSolution resolved(ContactProblem& problem, const StepGeometry& geometry, StepReport& report);
+    std::optional<ContactSolution> resolved(ContactProblem& problem, const StepGeometry& geometry, StepReport& report);
     ContactSolution repelled(const ContactProblem& problem) const;
     EndConfiguration end_configuration(const ContactMatrix& contact_matrix, const ContactSolution& solution);
     Contacts relinearised(const ContactProblem& problem, const EndConfiguration& end) const;
@@ -86,6 +102,8 @@ private:
     std::size_t scheduled_motions_;  ///< those that a schedule replaces, before those that were added
     std::optional<Growth> growth_;
     SimulationSettings settings_;
+    Domain domain_;
+    bool balance_ = false, gathering_ = false;  ///< when neighbours are listed next; in the next step
 
     // Results of the last step.
     std::vector<LineageEvent> lineage_;

@@ -5,7 +5,7 @@
 
 #include "jostle/contact/wca_forces.hpp"
 #include "jostle/contact_problem/previous_forces.hpp"
-#include "jostle/parallel/parallel_for.hpp"
+#include "jostle/parallel/sum_over_ranks.hpp"
 
 namespace jostle {
 
@@ -23,23 +23,26 @@ constexpr double skin_per_diameter = 0.5, skin_per_length = 0.13, displacement_a
 /// than pairs that a list costs time for then.
 constexpr double crowd = 3.0, max_skin_when_dilute = 2.0;
 /// How far forces may displace rods before all their neighbours are looked at: at most so far, and so many mean
-/// Brownian displacements, for these bring rods together. Without noise, and in crowds,
-/// displacements add up.
+/// Brownian displacements, for these bring rods together. Without noise, and in crowds, displacements add up.
 constexpr double max_displacement_limit = 0.2, limit_per_displacement = 3.0;
 
-double mean_of(const std::vector<double>& values) {
-    if (values.empty()) return 1.0;
-    return parallel_sum<double>(values.size(), [&](std::size_t i) { return values[i]; }) /
-           static_cast<double>(values.size());
+/// Over the rods of all ranks, so many.
+double mean_of(const std::vector<double>& values, const Domain& domain, std::size_t rods) {
+    if (rods == 0) return 1.0;
+    return sum_over_ranks<double>(domain.ranks(), domain.owned_of(values.size()),
+                                  [&](std::size_t i) { return values[i]; }) /
+           static_cast<double>(rods);
 }
 
 }  // namespace
 
-void find_size_bounds(const Rods& rods, const MobilityOperator& mobility, const SimulationSettings& settings,
-                      SizeBounds& sizes) {
-    sizes.mean_diameter = mean_of(rods.diameter);
-    sizes.mean_length = mean_of(rods.length);
-    sizes.max_diameter = parallel_max(rods.size(), 0.0, [&](std::size_t i) { return rods.diameter[i]; });
+void find_size_bounds(const Rods& rods, const Domain& domain, const MobilityOperator& mobility,
+                      const SimulationSettings& settings, SizeBounds& sizes) {
+    const Ranks& ranks = domain.ranks();
+    sizes.rods = static_cast<std::size_t>(ranks.sum(static_cast<std::int64_t>(domain.owned_of(rods.size()))));
+    sizes.mean_diameter = mean_of(rods.diameter, domain, sizes.rods);
+    sizes.mean_length = mean_of(rods.length, domain, sizes.rods);
+    sizes.max_diameter = ranks.largest(parallel_max(rods.size(), 0.0, [&](std::size_t i) { return rods.diameter[i]; }));
     sizes.shift_part.assign(rods.size(), 0.0);
     sizes.own_mobility.clear();
     if (!settings.corrects_brownian_motion()) return;
@@ -55,7 +58,7 @@ void find_size_bounds(const Rods& rods, const MobilityOperator& mobility, const 
 }
 
 SearchRanges search_ranges(const State& state, const KnownMotion& known, const SizeBounds& sizes,
-                           const SimulationSettings& settings) {
+                           const SimulationSettings& settings, const Domain& domain) {
     const double mean_diameter = sizes.mean_diameter, mean_length = sizes.mean_length;
     SearchRanges ranges = {.displacement_limit = max_displacement_limit * mean_diameter,
                            .skin = skin_per_diameter * mean_diameter + skin_per_length * mean_length,
@@ -64,13 +67,13 @@ SearchRanges search_ranges(const State& state, const KnownMotion& known, const S
     const bool crowded = is_crowd(state.previous_forces.size());
     if (crowded) ranges.activation_margin = activation_margin_in_a_crowd * mean_diameter;
     if (settings.kT == 0.0 || crowded) return ranges;
-    const double displacement = mean_of(known.displacement);
+    const double displacement = mean_of(known.displacement, domain, sizes.rods);
     // Not below half the margin: the neighbour list must hold every pair that may come within it.
     ranges.displacement_limit =
         std::clamp(limit_per_displacement * displacement, 0.5 * ranges.activation_margin, ranges.displacement_limit);
     double max_skin = 1.0;
     if (state.box.is_periodic()) {  // in an open one the volume does not tell how near rods are to each other
-        const double near = static_cast<double>(state.rods.size()) *
+        const double near = static_cast<double>(sizes.rods) *
                             std::pow(mean_length + mean_diameter, state.box.dimensions()) / state.box.volume();
         max_skin = std::clamp(std::sqrt(crowd / near), 1.0, max_skin_when_dilute);
     }
@@ -80,7 +83,7 @@ SearchRanges search_ranges(const State& state, const KnownMotion& known, const S
 }
 
 StepGeometry step_geometry(const State& state, const KnownMotion& known, const SizeBounds& sizes,
-                           const SimulationSettings& settings, const MobilityOperator& mobility) {
+                           const SimulationSettings& settings, const MobilityOperator& mobility, const Domain& domain) {
     GapShift shift = {sizes.shift_part, state.rods.axis, sizes.own_mobility, settings.kT, settings.time_step, {}};
     if (mobility.couples_rods() && settings.corrects_brownian_motion())
         shift.coupled = [&](const Contact& contact) {
@@ -91,7 +94,7 @@ StepGeometry step_geometry(const State& state, const KnownMotion& known, const S
             known.end,
             known.displacement,
             shift,
-            search_ranges(state, known, sizes, settings),
+            search_ranges(state, known, sizes, settings, domain),
             settings.rods_are_soft()};
 }
 

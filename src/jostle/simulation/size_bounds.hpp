@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "jostle/contact/collision_search.hpp"
+#include "jostle/domain/domain.hpp"
 #include "jostle/mobility/mobility.hpp"
 #include "jostle/simulation/known_motion.hpp"
 #include "jostle/simulation/simulation_settings.hpp"
@@ -11,21 +12,22 @@ namespace jostle {
 
 /// What follows from the sizes of the rods alone: these change where cells grow, divide or die.
 struct SizeBounds {
+    std::size_t rods = 0;  ///< of all ranks
     double mean_diameter = 0.0, mean_length = 0.0, max_diameter = 0.0;
     std::vector<RodMobility> own_mobility;  ///< (N); (0) without the time-step correction
     std::vector<double> shift_part;         ///< (N) each rod's part in the bound of a gap's shift (GapShift)
 };
 
-/// `mobility`: of these rods.
-void find_size_bounds(const Rods& rods, const MobilityOperator& mobility, const SimulationSettings& settings,
-                      SizeBounds& sizes);
+/// `mobility`: of these rods, of which the domain's own ones count.
+void find_size_bounds(const Rods& rods, const Domain& domain, const MobilityOperator& mobility,
+                      const SimulationSettings& settings, SizeBounds& sizes);
 
 /// How far the search for contacts looks in this step.
 SearchRanges search_ranges(const State& state, const KnownMotion& known, const SizeBounds& sizes,
-                           const SimulationSettings& settings);
+                           const SimulationSettings& settings, const Domain& domain);
 
 /// The step as the search for contacts sees it. Holds references.
 StepGeometry step_geometry(const State& state, const KnownMotion& known, const SizeBounds& sizes,
-                           const SimulationSettings& settings, const MobilityOperator& mobility);
+                           const SimulationSettings& settings, const MobilityOperator& mobility, const Domain& domain);
 
 }  // namespace jostle

@@ -43,13 +43,24 @@ constexpr double max_overlap_of_turning = 0.01;
 /// So often, and no more, is the problem of one step linearised about its solution.
 constexpr int max_relinearisations = 5;
 
+std::size_t contacts_of_all_ranks(const ContactProblem& problem) {
+    const auto elsewhere = std::count(problem.is_elsewhere().begin(), problem.is_elsewhere().end(), 1);
+    return static_cast<std::size_t>(
+        problem.domain().ranks().sum(static_cast<std::int64_t>(problem.size()) - elsewhere));
+}
+
 }  // namespace
 
 StepReport Simulation::step() {
+    for (;;)
+        if (const auto report = attempt()) return *report;
+}
+
+/// None if rods of other ranks were not known that have to be, as they are now: nothing has happened.
+std::optional<StepReport> Simulation::attempt() {
     StepReport report;
     report.step = state_.clock.step;
     report.time = state_.clock.time;
-    report.rods = state_.rods.size();
     PhaseTimer timer(report);
     threads_.begin_step(state_.rods.size());
     renumber();
@@ -58,22 +69,33 @@ StepReport Simulation::step() {
     Shearing shearing(state_, settings_.flow, settings_.time_step, search_);
     Lengthening lengthening(growth_, state_.rods, settings_.time_step);
     const auto mobility = mobility_->at(state_.rods, state_.box);
-    if (growth_ || std::exchange(sizes_changed_, false)) find_size_bounds(state_.rods, *mobility, settings_, sizes_);
+    if (growth_ || std::exchange(sizes_changed_, false))
+        find_size_bounds(state_.rods, domain_, *mobility, settings_, sizes_);
+    report.rods = sizes_.rods;
 
     find_known_motion(state_, motions_, *mobility, context(), known_);  // 1  U_known, and where it takes the rods
     timer.finish(StepPhase::known_velocity);
 
-    const StepGeometry geometry = step_geometry(state_, known_, sizes_, settings_, *mobility);
+    const StepGeometry geometry = step_geometry(state_, known_, sizes_, settings_, *mobility, domain_);
+    if (!neighbours_are_known(geometry)) {
+        gather(geometry.ranges.skin);
+        return std::nullopt;
+    }
     Contacts found = std::move(contacts_);
     ids_before_.clear();
     report.max_overlap = search_.find(geometry, found);  // 2  contacts
     report.max_overlap = std::max(report.max_overlap, wall_search_.find(geometry, found));
-    report.max_overlap = std::max(report.max_overlap, fixed_rod_search_.find(geometry, found));
+    report.max_overlap = domain_.ranks().largest(std::max(report.max_overlap, fixed_rod_search_.find(geometry, found)));
     timer.finish(StepPhase::find_contacts);
 
     ContactProblem problem = posed_problem(*mobility, std::move(found));  // 3  A, b; gamma
-    solution_ = settings_.rods_are_soft() ? repelled(problem) : resolved(problem, geometry, report);
-    report.contacts = problem.size();
+    auto solution = settings_.rods_are_soft() ? repelled(problem) : resolved(problem, geometry, report);
+    if (!solution) {
+        gather(geometry.ranges.skin);
+        return std::nullopt;
+    }
+    solution_ = std::move(*solution);
+    report.contacts = contacts_of_all_ranks(problem);
     std::optional<ContactSolution> touching;
     if (mobility->couples_rods() && settings_.corrects_brownian_motion())
         touching = forces_at_touching(problem, solution_, state_.rods, *mobility);
@@ -81,8 +103,8 @@ StepReport Simulation::step() {
     timer.finish(StepPhase::solve_contacts);
     if (report.status != LcpStatus::converged) return report;  // nothing has happened
 
-    measure_stress({state_, known_, contacts_, touching ? *touching : solution_}, settings_, half_way_axis_, report,
-                   moments_);  // 4
+    const ResolvedStep step = {state_, known_, contacts_, touching ? *touching : solution_, domain_};
+    measure_stress(step, settings_, half_way_axis_, report, moments_);  // 4
     timer.finish(StepPhase::measure_stress);
 
     squeezing.keep();
@@ -105,11 +127,13 @@ ContactProblem Simulation::posed_problem(const MobilityOperator& mobility, Conta
     if (settings_.warm_start) start = starting_forces(found, state_.rods.id, state_.previous_forces);
     const double compliance = settings_.corrects_brownian_motion() ? contact_compliance : 0.0;
     return ContactProblem(state_.rods, mobility, std::move(found), std::move(b), settings_.time_step, compliance,
-                          std::move(start));
+                          std::move(start), domain_);
 }
 
 // Theory 2.3: 0 <= A gamma + b  perp  gamma >= 0, with more contacts where forces turn out to bring rods together.
-ContactSolution Simulation::resolved(ContactProblem& problem, const StepGeometry& geometry, StepReport& report) {
+// None if rods of other ranks might be among those.
+std::optional<ContactSolution> Simulation::resolved(ContactProblem& problem, const StepGeometry& geometry,
+                                                    StepReport& report) {
     const auto solver = make_contact_solver(problem, settings_.method, settings_.lcp);
     int relinearisations = settings_.relinearise ? max_relinearisations : 0;
     while (solver->run_to_next_stop()) {
@@ -117,6 +141,7 @@ ContactSolution Simulation::resolved(ContactProblem& problem, const StepGeometry
         Contacts more;
         if (solver->near_solution() && relinearisations-- > 0) more = relinearised(problem, end);
         const auto violated = search_.violated_pairs(geometry, problem.contacts(), end, solver->at_solution());
+        if (domain_.ranks().any(search_.lacks_pairs())) return std::nullopt;
         more.append(search_.activate(violated, geometry));
         more.append(wall_search_.violated(geometry, end));
         more.append(fixed_rod_search_.violated(geometry, end));

@@ -2,7 +2,7 @@
 
 #include "jostle/contact/fixed_rod_grid.hpp"
 #include "jostle/math/rotation.hpp"
-#include "jostle/parallel/parallel_for.hpp"
+#include "jostle/parallel/sum_over_ranks.hpp"
 #include "jostle/stress/spring_stress.hpp"
 
 namespace jostle {
@@ -22,27 +22,54 @@ void find_half_way_axes(const ResolvedStep& step, double time_step, std::vector<
     });
 }
 
+/// The forces that this rank adds up, with 0 for contacts that another one does.
+class ForcesHere {
+public:
+    explicit ForcesHere(const ResolvedStep& step) {
+        const std::vector<double>& gamma = step.solution.gamma;
+        if (!step.domain.is_shared()) {
+            here_ = gamma;
+            return;
+        }
+        own_.resize(gamma.size());
+        parallel_for(gamma.size(), [&](std::size_t l) {
+            const Contact& contact = step.contacts.contact[l];
+            own_[l] = step.domain.owns(is_fixed(contact.i) ? contact.j : contact.i) ? gamma[l] : 0.0;
+        });
+        here_ = own_;
+    }
+    ForcesHere(const ForcesHere&) = delete;
+    ForcesHere& operator=(const ForcesHere&) = delete;
+    std::span<const double> get() const { return here_; }
+
+private:
+    std::vector<double> own_;
+    std::span<const double> here_;
+};
+
 /// Theory 1: the sum over contacts of (r_j - r_i) F, and over rods of the geometric part of the net torque. With the
 /// time-step correction: of rods half way through their collisions (theory, eq. 3.7).
-void measure_collision_stress(const ResolvedStep& step, const SimulationSettings& settings, std::span<const Vec3> axis,
-                              StepReport& report, CollisionMoments& moments) {
+void measure_collision_stress(const ResolvedStep& step, std::span<const double> gamma,
+                              const SimulationSettings& settings, std::span<const Vec3> axis, StepReport& report,
+                              CollisionMoments& moments) {
     const Rods& rods = step.state.rods;
-    const std::vector<double>& gamma = step.solution.gamma;
+    const Ranks& ranks = step.domain.ranks();
     const auto distance = settings.brownian_correction ? ContactDistance::touching : ContactDistance::at_start;
     std::vector<Vec3> torque(step.solution.rods.size());
     parallel_for(torque.size(), [&](std::size_t k) {
-        torque[k] = cross(axis[step.solution.rods[k]], step.solution.forces[k].moment);
+        const std::uint32_t row = step.solution.rods[k];
+        if (step.domain.owns(row)) torque[k] = cross(axis[row], step.solution.forces[k].moment);
     });
     const RodTorques torques = {step.solution.rods, torque};
-    const Mat3 centre_of_mass = centre_of_mass_virial(step.contacts, gamma, rods, axis, distance);
-    report.collision_virial = centre_of_mass + geometric_stress(rods, axis, torques);
+    const Mat3 centre_of_mass = centre_of_mass_virial(step.contacts, gamma, rods, axis, distance, ranks);
+    report.collision_virial = centre_of_mass + geometric_stress(rods, axis, torques, ranks);
     if (settings.stress_conventions || settings.flow) report.centre_of_mass_virial = centre_of_mass;
     if (settings.collision_moments)
         moments = collision_moments(step.contacts, gamma, rods, step.state.box, axis, torques, distance);
     if (settings.stress_conventions || settings.pressure)
-        report.centre_of_mass_virial = centre_of_mass_virial(step.contacts, gamma, rods, axis, distance);
+        report.centre_of_mass_virial = centre_of_mass_virial(step.contacts, gamma, rods, axis, distance, ranks);
     if (!settings.stress_conventions) return;
-    report.centre_line_virial = centre_line_virial(step.contacts, gamma, rods, distance);
+    report.centre_line_virial = centre_line_virial(step.contacts, gamma, rods, distance, ranks);
 }
 
 /// Theory 1, eqs. (1.16) and (1.22): the forces of springs, and the torques of motions, as the step began, with moments
@@ -66,9 +93,10 @@ void measure_stress_of_known_forces(const ResolvedStep& step, double time_step, 
         report.spring_virial =
             sum_of_spring_stresses(step.state.springs, step.known.pulls, rods, half_way.centre, half_way.axis);
     const std::vector<Vec3>& torque = step.known.exerted.torque;
-    report.torque_virial = parallel_sum<Mat3>(torque.size(), [&](std::size_t i) {
-        return geometric_stress_of_rod(half_way.axis[i], rods.length[i], rods.diameter[i], torque[i]);
-    });
+    report.torque_virial =
+        sum_over_ranks<Mat3>(step.domain.ranks(), step.domain.owned_of(torque.size()), [&](std::size_t i) {
+            return geometric_stress_of_rod(half_way.axis[i], rods.length[i], rods.diameter[i], torque[i]);
+        });
 }
 
 /// Theory 6: the sum of the contact forces on each wall, and on all fixed rods.
@@ -91,11 +119,12 @@ void measure_stress(const ResolvedStep& step, const SimulationSettings& settings
     if (step.known.by_forces.size() > 0) measure_stress_of_known_forces(step, settings.time_step, report);
     if (settings.corrects_brownian_motion()) find_half_way_axes(step, settings.time_step, half_way_axis);
     const std::span<const Vec3> axis = settings.corrects_brownian_motion() ? half_way_axis : step.state.rods.axis;
-    measure_collision_stress(step, settings, axis, report, moments);
+    const ForcesHere forces(step);
+    const std::span<const double> gamma = forces.get();
+    measure_collision_stress(step, gamma, settings, axis, report, moments);
     measure_wall_forces(step, report);
-    const std::vector<double>& gamma = step.solution.gamma;
-    report.active_contacts =
-        parallel_sum<std::size_t>(gamma.size(), [&](std::size_t l) { return gamma[l] > 0.0 ? std::size_t{1} : 0; });
+    report.active_contacts = sum_over_ranks<std::size_t>(
+        step.domain.ranks(), gamma.size(), [&](std::size_t l) { return gamma[l] > 0.0 ? std::size_t{1} : 0; });
 }
 
 }  // namespace jostle

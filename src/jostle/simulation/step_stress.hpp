@@ -1,6 +1,7 @@
 #pragma once
 
 #include "jostle/contact_problem/contact_solution.hpp"
+#include "jostle/domain/domain.hpp"
 #include "jostle/simulation/known_motion.hpp"
 #include "jostle/simulation/simulation_settings.hpp"
 #include "jostle/simulation/step_report.hpp"
@@ -14,6 +15,7 @@ struct ResolvedStep {
     const KnownMotion& known;
     const Contacts& contacts;
     const ContactSolution& solution;
+    const Domain& domain;
 };
 
 /// Fills in the report's stresses, and `moments` if the settings ask for them. `half_way_axis`: scratch.

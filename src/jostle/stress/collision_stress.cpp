@@ -1,7 +1,7 @@
 #include "jostle/stress/collision_stress.hpp"
 
 #include "jostle/error/refuse.hpp"
-#include "jostle/parallel/parallel_for.hpp"
+#include "jostle/parallel/sum_over_ranks.hpp"
 #include "jostle/stress/spherocylinder_moments.hpp"
 
 namespace jostle {
@@ -22,9 +22,9 @@ Vec3 between_centre_lines(const Contact& contact, const Rods& rods, ContactDista
 
 /// Sum over contacts of separation F.
 template <class Separation>
-Mat3 virial(const Contacts& contacts, std::span<const double> gamma, Separation&& separation) {
+Mat3 virial(const Contacts& contacts, std::span<const double> gamma, const Ranks& ranks, Separation&& separation) {
     require_rows("gamma", gamma.size(), contacts.size(), "contact");
-    return parallel_sum<Mat3>(contacts.size(), [&](std::size_t l) {
+    return sum_over_ranks<Mat3>(ranks, contacts.size(), [&](std::size_t l) {
         if (gamma[l] == 0.0) return Mat3{};
         const Contact& contact = contacts.contact[l];
         return outer(separation(contact), gamma[l] * contact.normal);
@@ -51,22 +51,22 @@ Mat3 sum_of_pair_stresses(const Contacts& contacts, std::span<const double> gamm
 }
 
 Mat3 centre_of_mass_virial(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
-                           std::span<const Vec3> axis, ContactDistance distance) {
+                           std::span<const Vec3> axis, ContactDistance distance, const Ranks& ranks) {
     require_rows("axis", axis.size(), rods.size(), "rod");
-    return virial(contacts, gamma,
+    return virial(contacts, gamma, ranks,
                   [&](const Contact& contact) { return centre_separation(contact, rods, axis, distance); });
 }
 
 Mat3 centre_line_virial(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
-                        ContactDistance distance) {
-    return virial(contacts, gamma,
+                        ContactDistance distance, const Ranks& ranks) {
+    return virial(contacts, gamma, ranks,
                   [&](const Contact& contact) { return between_centre_lines(contact, rods, distance); });
 }
 
-Mat3 geometric_stress(const Rods& rods, std::span<const Vec3> axis, const RodTorques& torques) {
+Mat3 geometric_stress(const Rods& rods, std::span<const Vec3> axis, const RodTorques& torques, const Ranks& ranks) {
     require_rows("axis", axis.size(), rods.size(), "rod");
     require_rows("torque", torques.torque.size(), torques.rods.size(), "rod");
-    return parallel_sum<Mat3>(torques.rods.size(), [&](std::size_t k) {
+    return sum_over_ranks<Mat3>(ranks, torques.rods.size(), [&](std::size_t k) {
         const std::uint32_t row = torques.rods[k];
         return geometric_stress_of_rod(axis[row], rods.length[row], rods.diameter[row], torques.torque[k]);
     });

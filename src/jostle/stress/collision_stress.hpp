@@ -5,6 +5,7 @@
 
 #include "jostle/contact/contacts.hpp"
 #include "jostle/math/mat3.hpp"
+#include "jostle/parallel/ranks.hpp"
 #include "jostle/rods/rods.hpp"
 
 // The collision stress of rods, with work proportional to the number of contacts and rods:
@@ -33,6 +34,8 @@ struct RodTorques {
 Mat3 sum_of_pair_stresses(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
                           std::span<const Vec3> axis, const RodTorques& torques, ContactDistance distance);
 
+// Sums are of all ranks, where these share the rods: each gives forces and torques of 0 to what others add up.
+
 /// r_j - r_i of a contact: arm_i n_i + distance normal - arm_j n_j; of a fixed body r_i is the point that it touches
 /// at, where momentum enters (theory, eq. 6.3). Sizes are not checked.
 Vec3 centre_separation(const Contact& contact, const Rods& rods, std::span<const Vec3> axis, ContactDistance distance);
@@ -45,15 +48,15 @@ void require_moment_rows(const Contacts& contacts, std::span<const double> gamma
 ///
 /// `gamma`: one force a contact. Throws InputError if their number is wrong.
 Mat3 centre_of_mass_virial(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
-                           std::span<const Vec3> axis, ContactDistance distance);
+                           std::span<const Vec3> axis, ContactDistance distance, const Ranks& ranks = {});
 
 /// Sum over contacts of (r_j + a_j - r_i - a_i) F = distance normal F, from centre line to centre line: the "centre
 /// line" stress (Snook et al. 2014), for comparison.
 Mat3 centre_line_virial(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,
-                        ContactDistance distance);
+                        ContactDistance distance, const Ranks& ranks = {});
 
 /// Sum over rods of the geometric stress. Throws InputError if there is not one torque a row.
-Mat3 geometric_stress(const Rods& rods, std::span<const Vec3> axis, const RodTorques& torques);
+Mat3 geometric_stress(const Rods& rods, std::span<const Vec3> axis, const RodTorques& torques, const Ranks& ranks = {});
 
 /// Geometric stress of a rod with axis n under a torque T: (1/G_perp)[N_par n (T x n) - N_perp (T x n) n] for T across
 /// n.

@@ -1,0 +1,151 @@
+// What ranks cost, counted: rods of other ranks that a rank knows, contacts that two ranks work out, messages and their
+// bytes. Ranks are threads of this process; no time is measured, for they share its processors.
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <memory>
+
+#include "jostle/parallel/parallel_for.hpp"
+#include "jostle/parallel/thread_ranks.hpp"
+#include "jostle/scene/scene_box.hpp"
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/start.hpp"
+
+using namespace jostle;
+
+namespace {
+
+/// Of all ranks together.
+struct Traffic {
+    std::atomic<std::uint64_t> exchanges = 0, messages = 0, bytes = 0, agreements = 0;
+};
+
+class CountedExchange final : public Exchange {
+public:
+    CountedExchange(std::unique_ptr<Exchange> exchange, Traffic& traffic)
+        : Exchange({exchange->peers().begin(), exchange->peers().end()}),
+          exchange_(std::move(exchange)),
+          traffic_(traffic) {}
+
+    void begin() override {
+        ++traffic_.exchanges;
+        for (std::size_t p = 0; p < peers_.size(); ++p) {
+            traffic_.messages += out_[p].empty() ? 0 : 1;
+            traffic_.bytes += out_[p].size();
+            std::copy(out_[p].begin(), out_[p].end(), exchange_->out(p).begin());
+        }
+        exchange_->begin();
+    }
+    void end() override {
+        exchange_->end();
+        for (std::size_t p = 0; p < peers_.size(); ++p) {
+            const auto arrived = exchange_->in(p);
+            std::copy(arrived.begin(), arrived.end(), in_[p].begin());
+        }
+    }
+
+private:
+    std::unique_ptr<Exchange> exchange_;
+    Traffic& traffic_;
+};
+
+/// Does what another link does, and counts it.
+class CountedLink final : public RankLink {
+public:
+    CountedLink(const Ranks& ranks, Traffic& traffic) : ranks_(ranks), traffic_(traffic) {}
+
+    int rank() const override { return ranks_.rank(); }
+    int count() const override { return ranks_.count(); }
+    void largest(std::span<double> values) override {
+        ++traffic_.agreements;
+        ranks_.largest(values);
+    }
+    void add_up(std::span<std::int64_t> numbers) override {
+        ++traffic_.agreements;
+        ranks_.add_up(numbers);
+    }
+    std::vector<Bytes> deal(const std::vector<Bytes>& to) override { return ranks_.deal(to); }
+    std::unique_ptr<Exchange> exchange(std::vector<Exchange::Peer> peers) override {
+        return std::make_unique<CountedExchange>(ranks_.exchange(std::move(peers)), traffic_);
+    }
+
+private:
+    const Ranks& ranks_;
+    Traffic& traffic_;
+};
+
+struct Case {
+    const char* name;
+    std::uint64_t rods;
+    double length, volume_fraction;
+    StartKind start = StartKind::random;
+};
+
+Scene scene_of(const Case& now) {
+    Scene scene;
+    scene.seed = 11;
+    scene.box.volume_fraction = now.volume_fraction;
+    scene.rods.count = now.rods;
+    scene.rods.length = now.length;
+    scene.rods.start = now.start;
+    scene.time.rms_step = 0.03;
+    scene.time.production = 1.0;
+    return scene;
+}
+
+void print_row(const Case& now, const Scene& scene, const State& start, int count) {
+    constexpr int steps_before = 30, steps = 10;
+    Traffic traffic;
+    std::atomic<std::uint64_t> contacts_of_ranks = 0, owned = 0, near = 0, ghosts = 0;
+    std::uint64_t sweeps = 0, contacts = 0;
+    run_as_ranks(count, [&](const Ranks& ranks) {
+        Simulation simulation = assemble(scene, start);
+        CountedLink link(ranks, traffic);
+        simulation.share(Ranks(link));
+        for (int k = 0; k < steps_before; ++k) simulation.step();
+        ranks.any(false);  // all are there
+        if (ranks.rank() == 0) traffic.exchanges = traffic.messages = traffic.bytes = traffic.agreements = 0;
+        ranks.any(false);
+        for (int k = 0; k < steps; ++k) {
+            const StepReport report = simulation.step();
+            contacts_of_ranks += simulation.contacts().size();
+            if (ranks.rank() > 0) continue;
+            sweeps += report.iterations;
+            contacts += report.contacts;
+        }
+        owned += simulation.domain().counts().owned;
+        near += simulation.domain().counts().near;
+        ghosts += simulation.domain().counts().ghosts;
+    });
+    const auto ratio = [](double a, double b) { return b > 0.0 ? a / b : 0.0; };
+    const auto number = [](std::uint64_t a) { return static_cast<double>(a); };
+    const double rank_sweeps = number(sweeps) * count;
+    fmt::print("| {} | {} | {} | {:.2f} | {:.2f} | {:.3f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.0f} |\n", now.name,
+               count, now.rods / static_cast<std::uint64_t>(count), ratio(number(near), number(owned)),
+               ratio(number(ghosts), number(owned)), ratio(number(contacts_of_ranks), number(contacts)),
+               number(sweeps) / steps, ratio(number(traffic.exchanges), rank_sweeps),
+               ratio(number(traffic.messages), rank_sweeps), ratio(number(traffic.bytes), 1024.0 * rank_sweeps),
+               ratio(number(traffic.agreements), number(steps * static_cast<std::uint64_t>(count))));
+    std::fflush(stdout);
+}
+
+}  // namespace
+
+int main() {
+    parallel::set_thread_count(1);
+    fmt::print(
+        "| state | ranks | rods a rank | near / own | ghosts / own | contacts worked out | sweeps a step | exchanges a "
+        "sweep | messages | KiB | agreements a step |\n");
+    fmt::print("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
+    for (const Case& now : {Case{"phi 0.1", 8000, 5.0, 0.1}, Case{"phi 0.4", 8000, 5.0, 0.4},
+                            Case{"parallel rods, phi 0.55", 8000, 5.0, 0.55, StartKind::lattice},
+                            Case{"spheres, phi 0.45", 8000, 0.0, 0.45}, Case{"L/D 20, phi 0.1", 4000, 20.0, 0.1}}) {
+        const Scene scene = scene_of(now);
+        const Box box(box_edges(scene), box_periodic(scene));
+        const State start = {box, make_start(scene, box)};
+        for (const int count : {2, 4, 8}) print_row(now, scene, start, count);
+    }
+}

@@ -1,0 +1,233 @@
+#include "jostle/domain/domain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "jostle/rods/space_filling_order.hpp"
+
+namespace jostle {
+
+namespace {
+
+/// Cuts are moved where a rank has more rods than this many times the mean.
+constexpr double uneven = 1.1;
+
+/// All that a rod carries.
+struct CarriedRod {
+    Vec3 centre, axis;
+    double length, diameter;
+    std::uint64_t id;
+    Image image;
+    CellCycle cycle;
+    double speed;
+};
+
+CarriedRod carried(const Rods& rods, std::size_t row) {
+    return {rods.centre[row],
+            rods.axis[row],
+            rods.length[row],
+            rods.diameter[row],
+            rods.id[row],
+            rods.image[row],
+            rods.cycle.empty() ? CellCycle{} : rods.cycle[row],
+            rods.speed.empty() ? 0.0 : rods.speed[row]};
+}
+
+/// What of it there is: a rank without rods learns that from the others.
+struct Carries {
+    bool cycle, speed;
+};
+
+void append(Rods& rods, const CarriedRod& rod, const Carries& carries) {
+    rods.push_back(rod.id, rod.centre, rod.axis, rod.length, rod.diameter);
+    rods.image.back() = rod.image;
+    if (carries.cycle) rods.cycle.push_back(rod.cycle);
+    if (carries.speed) rods.speed.push_back(rod.speed);
+}
+
+Carries carried_by_any(const Ranks& ranks, const Rods& rods) {
+    return {ranks.any(!rods.cycle.empty()), ranks.any(!rods.speed.empty())};
+}
+
+/// A box along the axes that encloses rods; empty where low > high.
+struct Bounds {
+    Vec3 low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+
+    void enclose(const Bounds& other) {
+        for (int k = 0; k < 3; ++k) {
+            low[k] = std::min(low[k], other.low[k]);
+            high[k] = std::max(high[k], other.high[k]);
+        }
+    }
+};
+
+Bounds bounds_of(const Rods& rods, std::size_t row) {
+    Bounds bounds;
+    for (int k = 0; k < 3; ++k) {
+        const double half = 0.5 * (rods.length[row] * std::fabs(rods.axis[row][k]) + rods.diameter[row]);
+        bounds.low[k] = rods.centre[row][k] - half;
+        bounds.high[k] = rods.centre[row][k] + half;
+    }
+    return bounds;
+}
+
+/// Whether two come nearer than `reach` along every direction, in some periodic image.
+bool are_near(const Bounds& a, const Bounds& b, double reach, const Box& box) {
+    for (int k = 0; k < 3; ++k) {
+        if (!(b.low[k] <= b.high[k])) return false;
+        const double edge = box.edges()[k];
+        // a displaced by m edges, low_a + m edge <= high_b + reach: the farthest such one is the only one to ask.
+        double below = b.high[k] + reach - a.low[k];
+        if (box.periodic()[static_cast<std::size_t>(k)])
+            below -= std::floor(below / edge) * edge;  // how far low_a is then below high_b + reach
+        else if (below < 0.0)
+            return false;
+        if (b.high[k] + reach - below + (a.high[k] - a.low[k]) < b.low[k] - reach) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+const Domain& Domain::whole() {
+    static const Domain domain;
+    return domain;
+}
+
+void Domain::share_out(Rods& rods) {
+    if (!is_shared()) return;
+    std::vector<std::uint32_t> own;
+    const auto count = static_cast<std::uint32_t>(ranks_.count());
+    for (auto row = static_cast<std::uint32_t>(ranks_.rank()); row < rods.size(); row += count) own.push_back(row);
+    rods = reordered(rods, own);
+    owned_ = rods.size();
+}
+
+void Domain::gather(Rods& rods, const Box& box, double reach, bool balance) {
+    if (!is_shared()) return;
+    std::vector<std::uint32_t> own(owned_);
+    for (std::uint32_t row = 0; row < own.size(); ++row) own[row] = row;
+    rods = reordered(rods, own);
+    if (balance || !std::exchange(is_cut_, true))
+        partition_.balance(ranks_, box, rods.centre, std::vector<float>(rods.size(), 1.0F));
+    migrate(rods, box);
+    fetch_ghosts(rods, box, reach);
+}
+
+void Domain::migrate(Rods& rods, const Box& box) {
+    const Carries carries = carried_by_any(ranks_, rods);
+    const auto here = static_cast<std::size_t>(ranks_.rank());
+    std::vector<std::vector<CarriedRod>> to(static_cast<std::size_t>(ranks_.count()));
+    std::vector<std::uint32_t> stay;
+    for (std::uint32_t row = 0; row < rods.size(); ++row) {
+        const auto rank = static_cast<std::size_t>(partition_.rank_of(rods.centre[row]));
+        if (rank == here)
+            stay.push_back(row);
+        else
+            to[rank].push_back(carried(rods, row));
+    }
+    rods = reordered(rods, stay);
+    counts_.arrived = 0;
+    for (const auto& arrived : ranks_.deal(to)) {
+        for (const CarriedRod& rod : arrived) append(rods, rod, carries);
+        counts_.arrived += arrived.size();
+    }
+    rods = reordered(rods, space_filling_order(rods, box));
+    owned_ = counts_.owned = rods.size();
+}
+
+void Domain::fetch_ghosts(Rods& rods, const Box& box, double reach) {
+    const Carries carries = carried_by_any(ranks_, rods);
+    Bounds own;
+    std::vector<Bounds> bounds(owned_);
+    for (std::size_t row = 0; row < owned_; ++row) own.enclose(bounds[row] = bounds_of(rods, row));
+    const std::vector<Bounds> of_rank = ranks_.gather(own);
+    std::vector<std::vector<CarriedRod>> to(of_rank.size());
+    std::vector<std::vector<std::uint32_t>> sent(of_rank.size());
+    for (std::size_t q = 0; q < of_rank.size(); ++q) {
+        if (q == static_cast<std::size_t>(ranks_.rank()) || owned_ == 0 || !are_near(own, of_rank[q], reach, box))
+            continue;
+        for (std::uint32_t row = 0; row < owned_; ++row) {
+            if (!are_near(bounds[row], of_rank[q], reach, box)) continue;
+            sent[q].push_back(row);
+            to[q].push_back(carried(rods, row));
+        }
+    }
+    const auto arrived = ranks_.deal(to);
+    std::vector<std::uint32_t> from;
+    for (std::size_t p = 0; p < arrived.size(); ++p) {
+        for (const CarriedRod& rod : arrived[p]) append(rods, rod, carries);
+        from.insert(from.end(), arrived[p].size(), static_cast<std::uint32_t>(p));
+    }
+    counts_.near = from.size();
+    note_ghosts(from, sent);
+}
+
+/// `from`: (ghosts) the rank of each, ascending; `sent`: (ranks) own rows.
+void Domain::note_ghosts(std::span<const std::uint32_t> from, const std::vector<std::vector<std::uint32_t>>& sent) {
+    exchanges_.clear();
+    peers_.clear();
+    peer_of_ghost_.clear();
+    counts_.ghosts = from.size();
+    std::size_t ghost = 0;
+    for (std::uint32_t rank = 0; rank < sent.size(); ++rank) {
+        const std::size_t first = ghost;
+        while (ghost < from.size() && from[ghost] == rank) ++ghost;
+        if (ghost == first && sent[rank].empty()) continue;
+        peer_of_ghost_.resize(ghost, static_cast<std::uint32_t>(peers_.size()));
+        peers_.push_back({static_cast<int>(rank), sent[rank], static_cast<std::uint32_t>(owned_ + first),
+                          static_cast<std::uint32_t>(ghost - first)});
+    }
+}
+
+void Domain::keep(Rods& rods, std::span<const std::uint32_t> rows) {
+    if (!is_shared()) return;
+    // Owners are told by the places that ghosts have in what they have sent.
+    std::vector<std::vector<std::uint32_t>> kept(static_cast<std::size_t>(ranks_.count()));
+    std::vector<std::uint32_t> from;
+    for (const std::uint32_t row : rows.subspan(owned_)) {
+        const Peer& peer = peers_[peer_of(row)];
+        kept[static_cast<std::size_t>(peer.rank)].push_back(row - peer.first_ghost);
+        from.push_back(static_cast<std::uint32_t>(peer.rank));
+    }
+    const auto wanted = ranks_.deal(kept);
+    std::vector<std::vector<std::uint32_t>> sent(wanted.size());
+    for (const Peer& peer : peers_) {
+        const auto rank = static_cast<std::size_t>(peer.rank);
+        for (const std::uint32_t place : wanted[rank]) sent[rank].push_back(peer.sent[place]);
+    }
+    rods = reordered(rods, rows);
+    note_ghosts(from, sent);
+}
+
+Rods Domain::all_rods(const Rods& rods) const {
+    if (!is_shared()) return rods;
+    const Carries carries = carried_by_any(ranks_, rods);
+    std::vector<CarriedRod> own;
+    for (std::size_t row = 0; row < owned_; ++row) own.push_back(carried(rods, row));
+    Rods all;
+    all.founder_bits = rods.founder_bits;
+    for (const auto& of_rank : ranks_.deal(std::vector(static_cast<std::size_t>(ranks_.count()), own)))
+        for (const CarriedRod& rod : of_rank) append(all, rod, carries);
+    return all;
+}
+
+bool Domain::is_uneven(const Rods& rods) const {
+    const auto own = static_cast<std::int64_t>(owned_of(rods.size()));
+    const double most = ranks_.largest(static_cast<double>(own));
+    const double mean = static_cast<double>(ranks_.sum(own)) / ranks_.count();
+    return most > uneven * mean;
+}
+
+Exchange& Domain::exchange_of(std::size_t bytes) const {
+    auto& exchange = exchanges_[bytes];
+    if (!exchange) {
+        std::vector<Exchange::Peer> peers;
+        for (const Peer& peer : peers_) peers.push_back({peer.rank, bytes * peer.sent.size(), bytes * peer.ghosts});
+        exchange = ranks_.exchange(std::move(peers));
+    }
+    return *exchange;
+}
+
+}  // namespace jostle

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace jostle {
+
+/// The same messages between the same ranks, again and again.
+class Exchange {
+public:
+    struct Peer {
+        int rank;
+        std::size_t bytes_out, bytes_in;
+    };
+
+    explicit Exchange(std::vector<Peer> peers);
+    virtual ~Exchange() = default;
+    Exchange(const Exchange&) = delete;
+    Exchange& operator=(const Exchange&) = delete;
+
+    std::span<const Peer> peers() const { return peers_; }
+    std::span<std::byte> out(std::size_t peer) { return out_[peer]; }
+    std::span<const std::byte> in(std::size_t peer) const { return in_[peer]; }
+
+    /// Sends what is in `out`; what lies between `begin` and `end` is done while messages travel.
+    virtual void begin() = 0;
+    /// Waits until all is in `in`.
+    virtual void end() = 0;
+
+protected:
+    std::vector<Peer> peers_;
+    std::vector<std::vector<std::byte>> out_, in_;
+};
+
+/// How one rank reaches the others. All ranks make the same calls in the same order.
+class RankLink {
+public:
+    using Bytes = std::vector<std::byte>;
+
+    virtual ~RankLink() = default;
+    virtual int rank() const = 0;
+    virtual int count() const = 0;
+    virtual void largest(std::span<double> values) = 0;
+    virtual void add_up(std::span<std::int64_t> numbers) = 0;
+    virtual std::vector<Bytes> deal(const std::vector<Bytes>& to) = 0;
+    virtual std::unique_ptr<Exchange> exchange(std::vector<Exchange::Peer> peers) = 0;
+};
+
+/// Those that make a run together, each with a part of the rods: all of them, or one alone, for whom nothing is sent.
+/// Whatever they agree upon is the same for all, to the bit. A handle: the link must outlive it.
+class Ranks {
+public:
+    Ranks() = default;
+    explicit Ranks(RankLink& link) : link_(&link) {}
+
+    bool alone() const { return link_ == nullptr; }
+    int rank() const { return link_ ? link_->rank() : 0; }
+    int count() const { return link_ ? link_->count() : 1; }
+
+    /// The largest of all ranks; nan counts as infinite.
+    double largest(double value) const {
+        if (link_) largest(std::span(&value, 1));
+        return value;
+    }
+    void largest(std::span<double> values) const;
+    /// Whether it is so on any rank.
+    bool any(bool here) const { return link_ ? largest(here ? 1.0 : 0.0) > 0.0 : here; }
+    /// The sum over all ranks.
+    std::int64_t sum(std::int64_t number) const {
+        if (link_) link_->add_up({&number, 1});
+        return number;
+    }
+    void add_up(std::span<std::int64_t> numbers) const {
+        if (link_) link_->add_up(numbers);
+    }
+
+    /// to[q] goes to rank q; returns what has come, from[p] from rank p. T is made of plain numbers.
+    template <class T>
+    std::vector<std::vector<T>> deal(const std::vector<std::vector<T>>& to) const {
+        static_assert(std::is_trivially_copyable_v<T>);
+        if (!link_) return to;
+        std::vector<RankLink::Bytes> bytes(to.size());
+        for (std::size_t q = 0; q < to.size(); ++q) {
+            bytes[q].resize(to[q].size() * sizeof(T));
+            if (!bytes[q].empty()) std::memcpy(bytes[q].data(), to[q].data(), bytes[q].size());
+        }
+        const auto arrived = link_->deal(bytes);
+        std::vector<std::vector<T>> from(arrived.size());
+        for (std::size_t p = 0; p < arrived.size(); ++p) {
+            from[p].resize(arrived[p].size() / sizeof(T));
+            if (!from[p].empty()) std::memcpy(from[p].data(), arrived[p].data(), arrived[p].size());
+        }
+        return from;
+    }
+
+    /// One value of each rank, for all.
+    template <class T>
+    std::vector<T> gather(const T& here) const {
+        std::vector<T> all;
+        for (const auto& one : deal(std::vector<std::vector<T>>(static_cast<std::size_t>(count()), {here})))
+            all.push_back(one.front());
+        return all;
+    }
+
+    /// Not for one alone.
+    std::unique_ptr<Exchange> exchange(std::vector<Exchange::Peer> peers) const {
+        return link_->exchange(std::move(peers));
+    }
+
+private:
+    RankLink* link_ = nullptr;
+};
+
+}  // namespace jostle

@@ -1,0 +1,214 @@
+// Steps of several ranks have the bits of steps of one: centres, axes, images, and every number that a step reports,
+// while rods change their rank, cuts move, and rods are longer than a rank's part is wide. Ranks are threads here.
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <mutex>
+#include <vector>
+
+#include "jostle/error/input_error.hpp"
+#include "jostle/math/random.hpp"
+#include "jostle/parallel/parallel_for.hpp"
+#include "jostle/parallel/thread_ranks.hpp"
+#include "jostle/rods/space_filling_order.hpp"
+#include "jostle/scene/scene_box.hpp"
+#include "jostle/setup/assemble.hpp"
+#include "jostle/setup/start.hpp"
+
+using namespace jostle;
+
+namespace {
+
+/// What steps leave: the rods in the order of ids, and every number that they reported.
+struct Trace {
+    Rods rods;
+    std::vector<double> numbers;
+    std::size_t arrived = 0;  ///< rods that have changed their rank
+    std::vector<std::size_t> owned, near, ghosts;
+
+    void add(const StepReport& report) {
+        for (const Mat3& tensor :
+             {report.collision_virial, report.torque_virial, report.centre_of_mass_virial, report.centre_line_virial})
+            for (int k = 0; k < 9; ++k) numbers.push_back(tensor(k / 3, k % 3));
+        for (const double number : {report.residual, report.max_overlap, static_cast<double>(report.iterations),
+                                    static_cast<double>(report.solves), static_cast<double>(report.contacts),
+                                    static_cast<double>(report.active_contacts), static_cast<double>(report.rods),
+                                    static_cast<double>(report.step), static_cast<double>(report.status)})
+            numbers.push_back(number);
+    }
+};
+
+template <class T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+void check_same(const Trace& a, const Trace& b) {
+    CHECK(a.rods.id == b.rods.id);
+    CHECK(same_bits(a.rods.centre, b.rods.centre));
+    CHECK(same_bits(a.rods.axis, b.rods.axis));
+    CHECK(same_bits(a.rods.length, b.rods.length));
+    CHECK(same_bits(a.rods.diameter, b.rods.diameter));
+    CHECK(a.rods.image == b.rods.image);
+    CHECK(same_bits(a.numbers, b.numbers));
+}
+
+constexpr int no_ranks = 0;
+
+/// `rebalance_every`: so many steps; 0: where ranks have more rods than others.
+Trace trace_of(const Scene& scene, const State& start, int steps, int rank_count, int rebalance_every = 0) {
+    Trace trace;
+    const auto run = [&](const Ranks& ranks) {
+        Simulation simulation = assemble(scene, start);
+        simulation.share(ranks);
+        Trace own;
+        for (int k = 0; k < steps; ++k) {
+            if (rebalance_every > 0 && k % rebalance_every == 0) simulation.rebalance();
+            const auto arrived = simulation.domain().counts().arrived;
+            own.add(simulation.step());
+            if (simulation.domain().counts().arrived != arrived) own.arrived += simulation.domain().counts().arrived;
+        }
+        own.rods = simulation.rods_of_all_ranks();
+        const auto& counts = simulation.domain().counts();
+        const auto arrived = ranks.sum(static_cast<std::int64_t>(own.arrived));
+        own.arrived = static_cast<std::size_t>(arrived);
+        own.owned = ranks.gather(counts.owned);
+        own.near = ranks.gather(counts.near);
+        own.ghosts = ranks.gather(counts.ghosts);
+        if (ranks.rank() == ranks.count() - 1) trace = std::move(own);
+    };
+    parallel::set_thread_count(1);
+    if (rank_count == no_ranks)
+        run({});
+    else
+        run_as_ranks(rank_count, run);
+    return trace;
+}
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool is_slow = true;
+#elif defined(__has_feature)
+constexpr bool is_slow = __has_feature(thread_sanitizer) || __has_feature(address_sanitizer);
+#else
+constexpr bool is_slow = false;
+#endif
+
+/// Brownian rods at random.
+Scene crowd(std::uint64_t count, double length, double volume_fraction) {
+    Scene scene;
+    scene.seed = 11;
+    scene.box.volume_fraction = volume_fraction;
+    scene.rods.count = count;
+    scene.rods.length = length;
+    scene.time.rms_step = 0.05;
+    scene.time.production = 1.0;
+    scene.output.stress_conventions = true;
+    return scene;
+}
+
+State start_of(const Scene& scene) {
+    parallel::set_thread_count(1);
+    const Box box(box_edges(scene), box_periodic(scene));
+    return {box, make_start(scene, box)};
+}
+
+/// On these numbers of ranks, balanced where need be, and on one with cuts that move every few steps.
+void check_ranks(const Scene& scene, const State& start, int steps, std::initializer_list<int> rank_counts) {
+    const Trace alone = trace_of(scene, start, steps, no_ranks);
+    for (const int count : rank_counts) {
+        if (is_slow && count > 3) continue;
+        CAPTURE(count);
+        const Trace shared = trace_of(scene, start, steps, count);
+        check_same(shared, alone);
+        if (count < 3) continue;
+        const Trace moved = trace_of(scene, start, steps, count, 3);
+        check_same(moved, alone);
+        if (start.rods.size() > 100) CHECK(moved.arrived > 0);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("dense rods") {
+    check_ranks(crowd(800, 5.0, 0.36), start_of(crowd(800, 5.0, 0.36)), 12, {1, 2, 3, 4, 5, 8});
+}
+
+TEST_CASE("dense rods of several lengths and diameters") {
+    Scene scene = crowd(400, 3.0, 0.4);
+    scene.rods.length_deviation = 0.5;
+    scene.rods.diameter_deviation = 0.1;
+    check_ranks(scene, start_of(scene), 12, {2, 3, 8});
+}
+
+TEST_CASE("dilute rods") {
+    check_ranks(crowd(500, 5.0, 0.1), start_of(crowd(500, 5.0, 0.1)), 20, {2, 5});
+}
+
+TEST_CASE("spheres") {
+    check_ranks(crowd(600, 0.0, 0.45), start_of(crowd(600, 0.0, 0.45)), 12, {2, 4, 8});
+}
+
+TEST_CASE("parallel rods, which touch at several points") {
+    Scene scene = crowd(480, 5.0, 0.5);
+    scene.rods.start = StartKind::lattice;
+    check_ranks(scene, start_of(scene), 12, {2, 3, 5});
+}
+
+TEST_CASE("rods of any length up to 20 diameters, longer than a rank's part is wide") {
+    Scene scene = crowd(150, 20.0, 0.12);
+    State start = start_of(scene);
+    for (std::size_t i = 0; i < start.rods.size(); ++i)  // shorter ones do not overlap either
+        if (i % 4 != 0) start.rods.length[i] *= uniform4({.seed = 3, .id = i}, 0)[0];
+    start.rods.length[1] = 0.0;
+    check_ranks(scene, start, 12, {2, 3, 8});
+}
+
+TEST_CASE("few rods in a small box: ranks without rods, and rods that meet their own images") {
+    Scene scene = crowd(6, 3.0, 0.0);
+    scene.box.volume_fraction.reset();
+    scene.box.edges = Vec3{4.2, 4.4, 4.6};
+    check_ranks(scene, start_of(scene), 20, {2, 3, 8});
+}
+
+TEST_CASE("swimmers of their own speeds that tumble and turn round") {
+    Scene scene = crowd(300, 2.0, 0.25);
+    scene.motion.self_propulsion = 20.0;
+    scene.motion.self_propulsion_deviation = 5.0;
+    scene.motion.tumble_rate = 5.0;
+    scene.motion.tumble_time = 0.1;
+    scene.motion.reversal_rate = 5.0;
+    scene.time.rms_step = 0.03;
+    check_ranks(scene, start_of(scene), 12, {2, 5});
+}
+
+TEST_CASE("rods that overlap far at the start: forces take them beyond the neighbours that were gathered") {
+    const Scene scene = crowd(300, 4.0, 0.15);
+    State start = start_of(scene);
+    start.box = Box(0.75 * start.box.edges(), start.box.periodic());
+    for (Vec3& centre : start.rods.centre) centre *= 0.75;
+    check_ranks(scene, start, 4, {2, 5});
+}
+
+TEST_CASE("what is not ready for several ranks is refused") {
+    Scene scene = crowd(20, 2.0, 0.1);
+    const State start = start_of(scene);
+    const auto refused = [&](auto&& change, const char* key) {
+        Scene changed = scene;
+        change(changed);
+        try {
+            trace_of(changed, start, 1, 2);
+        } catch (const InputError& error) {
+            return std::string(error.what()).find(key) != std::string::npos;
+        }
+        return false;
+    };
+    CHECK(!refused([](Scene&) {}, ""));
+    CHECK(refused([](Scene& s) { s.solver.method = SolverMethod::apgd; }, "solver.method"));
+    CHECK(refused([](Scene& s) { s.solver.warm_start = WarmStarts::always; }, "solver.warm_start"));
+    CHECK(refused([](Scene& s) { s.contact.model = ContactModel::wca; }, "contact.model"));
+    CHECK(refused([](Scene& s) { s.growth.rate = 1.0; }, "growth"));
+    CHECK(refused([](Scene& s) { s.pressure.external = 1.0; }, "pressure"));
+    CHECK(refused([](Scene& s) { s.output.stress_per_rod = true; }, "output"));
+}
