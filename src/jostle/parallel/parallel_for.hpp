@@ -109,15 +109,15 @@ void parallel_for_blocks(std::size_t count, std::size_t block_size, Body&& body)
 
 /// How sums of T are held until they are rounded: whole numbers as they are.
 template <class T>
-inline constexpr std::size_t numbers_of = std::is_integral_v<T> ? 1 : sizeof(T) / sizeof(double);
+inline constexpr std::size_t numbers_in = std::is_integral_v<T> ? 1 : sizeof(T) / sizeof(double);
 template <class T>
-using UnroundedSum = std::array<std::conditional_t<std::is_integral_v<T>, T, ExactSum>, numbers_of<T>>;
+using UnroundedSum = std::array<std::conditional_t<std::is_integral_v<T>, T, ExactSum>, numbers_in<T>>;
 
 /// The sum of term(k) over [0, count), not rounded yet.
 template <class T, class Term>
 UnroundedSum<T> unrounded_sum(std::size_t count, Term&& term) {
     static_assert(std::is_integral_v<T> || (std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(double) == 0));
-    constexpr std::size_t width = numbers_of<T>;
+    constexpr std::size_t width = numbers_in<T>;
     UnroundedSum<T> total{};
     parallel::for_shares(count, count <= parallel::serial_limit, [&](std::size_t begin, std::size_t end) {
         UnroundedSum<T> share{};
@@ -145,7 +145,7 @@ T rounded_sum(const UnroundedSum<T>& total) {
     if constexpr (std::is_integral_v<T>) {
         return total[0];
     } else {
-        std::array<double, numbers_of<T>> sum;
+        std::array<double, numbers_in<T>> sum;
         for (std::size_t n = 0; n < sum.size(); ++n) sum[n] = total[n].value();
         return std::bit_cast<T>(sum);
     }

@@ -21,7 +21,7 @@ T sum_over_ranks(const Ranks& ranks, std::size_t count, Term&& term) {
         return static_cast<T>(ranks.sum(static_cast<std::int64_t>(total[0])));
     } else {
         constexpr std::size_t words = ExactSum::words;
-        std::array<std::int64_t, numbers_of<T> * words> numbers;
+        std::array<std::int64_t, numbers_in<T> * words> numbers;
         for (std::size_t n = 0; n < total.size(); ++n) {
             const auto of_sum = total[n].in_words();
             std::copy(of_sum.begin(), of_sum.end(), numbers.begin() + static_cast<std::ptrdiff_t>(n * words));
