@@ -101,7 +101,7 @@ double BlockGaussSeidel<Real>::sweep(double omega, SweepOver over) {
     }
     if (all) {
         all_messages_.bring(std::span(velocities_));
-        const auto find = [this](auto& group) { find_active(group); };
+        const auto find = [this](auto& group) { this->find_active(group); };
         for (Colour& colour : colours_) {
             for_groups(colour.here, find);
             for_groups(colour.elsewhere, find);
