@@ -51,8 +51,7 @@ struct PosedProblem {
         : simulation(settled(crowd, bodies)),
           contacts(contacts_of_step(*simulation)),
           mobility(simulation->mobility().at(simulation->rods(), simulation->box())),
-          problem(simulation->rods(), *mobility, contacts, gap_velocities(), time_step(),
-                  brownian_compliance(simulation->settings().kT, time_step())) {}
+          problem(simulation->rods(), *mobility, contacts, gap_velocities(), time_step(), contact_compliance) {}
 
     static const Contacts& contacts_of_step(Simulation& simulation) {
         for (int k = 0; k < 10; ++k) simulation.step();  // copies begin to forget each other
@@ -109,7 +108,7 @@ void memory(benchmark::State& state) {
 }
 
 /// What an application of A has to read and write at least, a contact: each contact and gamma twice (D and D^T), its
-/// local_rods, its diagonal and its rate; and its share of the rods' mobilities, forces and velocities.
+/// local_rods, its diagonal (compliance) and its rate; and its share of the rods' mobilities, forces and velocities.
 double bytes_of_application(const PosedProblem& posed) {
     const double contact = 2 * (sizeof(Contact) + sizeof(ContactMatrix::RodPair)) + 4 * sizeof(double);
     const double place = sizeof(MobileRod) + 2 * sizeof(ContactForce) + 2 * sizeof(ContactVelocity);

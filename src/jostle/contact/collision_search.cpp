@@ -183,7 +183,7 @@ void CollisionSearch::narrow_phase(std::uint32_t row, const PairKey& key, std::u
     double shift = step.shift.bound(i, j);
     if (always || gap_after - shift < step.ranges.activation_margin) {
         const std::size_t known = found.contacts.size();
-        shift = append(key, before, nearest, after, step, found.contacts);
+        shift = append(key, before, nearest, distance, after, step, found.contacts);
         if (always || gap_after - shift < step.ranges.activation_margin) return;
         found.contacts.resize(known);
     }
@@ -198,19 +198,20 @@ void CollisionSearch::narrow_phase(std::uint32_t row, const PairKey& key, std::u
 
 /// Appends the contacts of a pair, with their shifted gaps. Returns the largest of their shifts.
 double CollisionSearch::append(const PairKey& key, const PairGeometry& before, const NearestPoints& nearest,
-                               const PairGeometry& after, const StepGeometry& step, Contacts& contacts) const {
+                               double distance, const PairGeometry& after, const StepGeometry& step,
+                               Contacts& contacts) const {
     const std::size_t first = contacts.size();
     const auto own_image = key.i == key.j && !step.forces_at_start ? contact_with_own_image(key, after) : std::nullopt;
     if (own_image) {
         contacts.push_back(*own_image, key.image, ContactFeature::nearest);
-        contacts.contact[first].gap = norm(nearest.separation) - before.radii;
+        contacts.contact[first].gap = distance - before.radii;
         const double shift = step.shift.exact(*own_image);
         contacts.contact[first].shifted_gap -= shift;
         return shift;
     }
-    return append_moving_contacts(key, {before, nearest, after, step.normals_after}, step.shift,
-                                  interaction_range_[key.i] + interaction_range_[key.j], step.box.dimensions(),
-                                  contacts);
+    append_contacts(key, before, nearest, distance, interaction_range_[key.i] + interaction_range_[key.j],
+                    step.box.dimensions(), contacts);
+    return set_shifted_gaps(step.shift, after, first, contacts);
 }
 
 /// Inactive pairs are no contacts until they are activated; once the list is another one, any pair may be one.
@@ -253,7 +254,7 @@ bool CollisionSearch::is_violated(const PairKey& key, const StepGeometry& step, 
         pair_geometry(step.rods, i, j, step.box.displacement(image), step.rods.centre, step.rods.axis);
     const NearestPoints nearest = nearest_points(before);
     Contacts points;
-    return gap < append(key, before, nearest, after, step, points);
+    return gap < append(key, before, nearest, norm(nearest.separation), after, step, points);
 }
 
 /// By rows, where pairs look for them: 0 for rods without contacts.
@@ -329,7 +330,7 @@ Contacts CollisionSearch::activate(std::span<const PairKey> violated, const Step
         const PairGeometry before = pair_geometry(step.rods, i, j, displacement, step.rods.centre, step.rods.axis);
         const PairGeometry after = pair_geometry(step.rods, i, j, displacement, step.known.centre, step.known.axis);
         const NearestPoints nearest = nearest_points(before);
-        append(key, before, nearest, after, step, contacts);
+        append(key, before, nearest, norm(nearest.separation), after, step, contacts);
         activated_.push_back(in_order_of_rows(key));
     }
     std::sort(activated_.begin(), activated_.end());

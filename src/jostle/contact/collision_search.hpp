@@ -30,7 +30,6 @@ struct StepGeometry {
     std::span<const double> displacement;  ///< (N) by the known motion, of any point of the rod, at most
     GapShift shift;
     SearchRanges ranges;
-    double normals_after = 0.0;    ///< normals and arms of contacts are those after this part of the known motion
     bool forces_at_start = false;  ///< forces follow from where rods are before the step: there they meet their images
 };
 
@@ -112,7 +111,7 @@ private:
     void search_block(std::size_t block, const StepGeometry& step, Found& found);
     void narrow_phase(std::uint32_t row, const PairKey& key, std::uint16_t in_block, const StepGeometry& step,
                       Found& found) const;
-    double append(const PairKey& key, const PairGeometry& before, const NearestPoints& nearest,
+    double append(const PairKey& key, const PairGeometry& before, const NearestPoints& nearest, double distance,
                   const PairGeometry& after, const StepGeometry& step, Contacts& contacts) const;
     static bool may_meet(const InactivePair& pair, const Displacement& i, const Displacement& j);
     bool is_contact(const PairKey& key, const Contacts& contacts) const;

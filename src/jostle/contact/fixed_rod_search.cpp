@@ -10,8 +10,11 @@ namespace jostle {
 
 namespace {
 
-PairKey key_of(const FixedCopy& copy, std::uint32_t row) {
-    return {body_of_fixed_rod(copy.number), row, copy.image};
+/// The contacts of a pair, their gaps not shifted.
+void append_points(const FixedCopy& copy, std::uint32_t row, const PairGeometry& pair, const NearestPoints& nearest,
+                   double range, Contacts& contacts) {
+    const PairKey key = {body_of_fixed_rod(copy.number), row, copy.image};
+    append_contacts(key, pair, nearest, norm(nearest.separation), range, 3, contacts);
 }
 
 /// Whether a pair's middle points are farther apart than it could touch from.
@@ -78,8 +81,9 @@ void FixedRodSearch::look_at(std::uint32_t row, const StepGeometry& step, FoundC
 double FixedRodSearch::append(const FixedCopy& copy, std::uint32_t row, const PairGeometry& before,
                               const NearestPoints& nearest, const PairGeometry& after, const StepGeometry& step,
                               Contacts& contacts) const {
-    return append_moving_contacts(key_of(copy, row), {before, nearest, after, step.normals_after}, step.shift,
-                                  reach_[row], 3, contacts);
+    const std::size_t first = contacts.size();
+    append_points(copy, row, before, nearest, reach_[row], contacts);
+    return set_shifted_gaps(step.shift, after, first, contacts);
 }
 
 void FixedRodSearch::remember(const Contacts& contacts, std::size_t first) {
@@ -130,8 +134,7 @@ double append_fixed_rod_contacts(const Rods& rods, const Box& box, std::span<con
             const NearestPoints nearest = nearest_points(pair);
             const double gap = norm(nearest.separation) - pair.radii;
             overlap = std::max(overlap, -gap);
-            if (gap < reach[row])
-                append_contacts(key_of(copy, row), pair, nearest, norm(nearest.separation), reach[row], 3, contacts);
+            if (gap < reach[row]) append_points(copy, row, pair, nearest, reach[row], contacts);
         }
     return overlap;
 }

@@ -10,8 +10,8 @@
 
 namespace jostle {
 
-/// The gap below which two bodies touch: 0, or with the time-step correction s sqrt(2 kT dt A_ll) (theory, eq. 3.5).
-/// Holds references to arrays of all rods.
+/// The gap below which two bodies touch: 0, or with the time-step correction s(kappa) sqrt(2 kT dt A_ll) (theory, eq.
+/// 3.5). Holds references to arrays of all rods.
 struct GapShift {
     std::span<const double> part;           ///< (N) of the bounds below; 0 without the correction
     std::span<const Vec3> axis = {};        ///< (N)
@@ -29,9 +29,9 @@ struct GapShift {
         if (coupled && !is_fixed(contact.i)) return brownian_shift(kT, time_step, coupled(contact));
         const std::uint32_t i = contact.i, j = contact.j;
         const MobileRod rod_j = {axis[j], own[j]};
-        if (is_fixed(i)) return brownian_shift(kT, time_step, point_mobility(rod_j, contact.normal, contact.arm_j));
-        return brownian_shift(kT, time_step, relative_mobility(contact, {axis[i], own[i]}, rod_j),
-                              i == j ? own_image_watching : discrete_watching);
+        return brownian_shift(kT, time_step,
+                              is_fixed(i) ? point_mobility(rod_j, contact.normal, contact.arm_j)
+                                          : relative_mobility(contact, {axis[i], own[i]}, rod_j));
     }
 };
 

@@ -87,28 +87,6 @@ EndPoints end_points(const PairGeometry& pair, const Point& nearest, double rang
     return ends;
 }
 
-/// The pair after a part of its way.
-PairGeometry on_the_way(const MovingPair& pair) {
-    const double part = pair.normals_after;
-    const auto between = [part](const Vec3& a, const Vec3& b) { return a + part * (b - a); };
-    PairGeometry here = pair.before;
-    here.between = between(pair.before.between, pair.after.between);
-    here.axis_i = normalised(between(pair.before.axis_i, pair.after.axis_i));
-    here.axis_j = normalised(between(pair.before.axis_j, pair.after.axis_j));
-    return here;
-}
-
-/// Appends the contacts of a pair as it lies on its way. Returns whether there are any: not if the rods have passed
-/// through each other by then.
-bool append_on_the_way(const PairKey& key, const MovingPair& pair, double range, int dimensions, Contacts& contacts) {
-    if (pair.normals_after == 0.0) return false;
-    const PairGeometry here = on_the_way(pair);
-    const NearestPoints nearest = nearest_points(here);
-    if (dot(nearest.separation, pair.nearest.separation) <= 0.0) return false;
-    append_contacts(key, here, nearest, norm(nearest.separation), range, dimensions, contacts);
-    return true;
-}
-
 }  // namespace
 
 void append_contacts(const PairKey& key, const PairGeometry& pair, const NearestPoints& points, double distance,
@@ -158,18 +136,12 @@ double gap_of_contact(const Contact& contact, ContactFeature feature, const Pair
     return distance - pair.radii;
 }
 
-double append_moving_contacts(const PairKey& key, const MovingPair& pair, const GapShift& shift, double range,
-                              int dimensions, Contacts& contacts) {
-    const std::size_t first = contacts.size();
-    const bool moved = append_on_the_way(key, pair, range, dimensions, contacts);
-    if (!moved)
-        append_contacts(key, pair.before, pair.nearest, norm(pair.nearest.separation), range, dimensions, contacts);
+double set_shifted_gaps(const GapShift& shift, const PairGeometry& after, std::size_t first, Contacts& contacts) {
     double largest = 0.0;
     for (std::size_t l = first; l < contacts.size(); ++l) {
         Contact& contact = contacts.contact[l];
         const double own = shift.exact(contact);
-        if (moved) contact.gap = gap_of_contact(contact, contacts.feature[l], pair.before);
-        contact.shifted_gap = gap_of_contact(contact, contacts.feature[l], pair.after) - own;
+        contact.shifted_gap = gap_of_contact(contact, contacts.feature[l], after) - own;
         largest = std::max(largest, own);
     }
     return largest;

@@ -12,15 +12,6 @@ void add(const Contact& contact, Contacts& contacts) {
     contacts.push_back(contact, {0, 0, 0}, ContactFeature::end_of_j);
 }
 
-/// The contact of the point at `arm` of a rod with a wall in a step; its gap is not shifted.
-Contact contact_of_step(const Wall& wall, std::uint32_t row, double arm, const StepGeometry& step) {
-    Contact contact = contact_with_wall(wall, step.rods, row, arm);
-    const Vec3 before = step.rods.centre[row] + arm * step.rods.axis[row];
-    const Vec3 after = step.known.centre[row] + arm * step.known.axis[row];
-    contact.normal = wall.inwards(before + step.normals_after * (after - before));
-    return contact;
-}
-
 double gap_after_known_motion(const Wall& wall, std::uint32_t row, double arm, const StepGeometry& step) {
     return wall.distance(step.known.centre[row] + arm * step.known.axis[row]) - 0.5 * step.rods.diameter[row];
 }
@@ -44,7 +35,7 @@ void WallSearch::look_at(std::uint32_t row, const StepGeometry& step, FoundConta
         for (const double arm : wall_arms(step.box.walls(), rods.length[row])) {
             const double after = gap_after_known_motion(wall, row, arm, step);
             if (after - step.displacement[row] > range) continue;
-            Contact contact = contact_of_step(wall, row, arm, step);
+            Contact contact = contact_with_wall(wall, rods, row, arm);
             found.overlap = std::max(found.overlap, -contact.gap);
             contact.shifted_gap = after - step.shift.exact(contact);
             if (contact.gap >= step.ranges.range && contact.shifted_gap >= step.ranges.activation_margin) continue;
@@ -69,7 +60,7 @@ void WallSearch::look_again_at(std::uint32_t row, double farthest, const StepGeo
         for (const double arm : wall_arms(step.box.walls(), rods.length[row])) {
             const double after = gap_after_known_motion(wall, row, arm, step);
             if (after - farthest > step.shift.part[row] || is_contact(row, wall, arm)) continue;
-            Contact contact = contact_of_step(wall, row, arm, step);
+            Contact contact = contact_with_wall(wall, rods, row, arm);
             const double shift = step.shift.exact(contact);
             const double at_end = wall.distance(end.centre(row) + arm * end.axis(row)) - 0.5 * rods.diameter[row];
             if (at_end >= shift) continue;

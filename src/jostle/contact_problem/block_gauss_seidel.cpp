@@ -228,16 +228,9 @@ ScalarBlock<Real> BlockGaussSeidel<Real>::contact_of(const ContactPair& pair) co
     contact.response_j = answer(j, on_j);
     contact.b = static_cast<Real>(b_[l]);
     contact.gamma = static_cast<Real>(start_[l]);
-    const ContactCompliance compliance = matrix_.compliance(l);
-    const auto inverse = [&](double spring) {
-        return static_cast<Real>(diagonal > 0.0 ? 1.0 / (diagonal + spring) : 0.0);
-    };
-    contact.soft = static_cast<Real>(compliance.soft);
-    contact.stiff = static_cast<Real>(compliance.stiff);
-    contact.knee = static_cast<Real>(compliance.knee);
+    contact.compliance = static_cast<Real>(matrix_.compliance(l));
     contact.diagonal = static_cast<Real>(diagonal);
-    contact.inverse_soft = inverse(compliance.soft);
-    contact.inverse_stiff = inverse(compliance.stiff);
+    contact.inverse_diagonal = static_cast<Real>(diagonal > 0.0 ? 1.0 / diagonal : 0.0);
     contact.i = against_fixed_body ? j : i;
     contact.j = j;
     contact.number = l;
@@ -266,6 +259,7 @@ CoupledBlock BlockGaussSeidel<Real>::pair_of(const ContactPair& touching) const 
             i == no_local_index ? ContactVelocity{} : velocity_of(matrix_.rods()[i], on_i.force, on_i.moment);
         const ContactVelocity of_j = velocity_of(matrix_.rods()[j], on_j.force, on_j.moment);
         for (std::uint32_t a = 0; a < count; ++a) pair.matrix[a][c] = gap_rate(pair.points[a], of_i, of_j);
+        pair.matrix[c][c] += pair.points[c].compliance;
     }
     return pair;
 }

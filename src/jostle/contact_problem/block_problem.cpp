@@ -62,8 +62,9 @@ double violation(const BlockMatrix& pair, const Points& without, const Points& g
     return largest;
 }
 
-/// The problem of contacts that do not give way.
-void solve_linear_problem(const BlockMatrix& pair, const Points& velocity, Points& target) {
+}  // namespace
+
+void solve_block_problem(const BlockMatrix& pair, const Points& velocity, Points& target) {
     Points without{};
     PointSet pushing = 0;
     for (std::uint32_t a = 0; a < pair.count; ++a) {
@@ -92,34 +93,6 @@ void solve_linear_problem(const BlockMatrix& pair, const Points& velocity, Point
         if (here < least) {
             least = here;
             target = *gamma;
-        }
-    }
-}
-
-}  // namespace
-
-void solve_block_problem(const BlockMatrix& pair, const Compliances& compliance, const Points& velocity,
-                         Points& target) {
-    constexpr int max_guesses = 8;  // three contacts have eight combinations of springs
-    const Points before = target;
-    std::array<bool, max_points> stiff{};
-    for (std::uint32_t a = 0; a < pair.count; ++a) stiff[a] = compliance[a].is_stiff_at(before[a]);
-    bool settled = false;
-    for (int guess = 0; guess < max_guesses && !settled; ++guess) {
-        BlockMatrix with_springs = pair;
-        Points felt = velocity;
-        for (std::uint32_t a = 0; a < pair.count; ++a) {
-            const double spring = stiff[a] ? compliance[a].stiff : compliance[a].soft;
-            with_springs.matrix[a][a] += spring;
-            felt[a] += spring * before[a] + (stiff[a] ? compliance[a].knee : 0.0);
-        }
-        target = before;
-        solve_linear_problem(with_springs, felt, target);
-        settled = true;
-        for (std::uint32_t a = 0; a < pair.count; ++a) {
-            const bool now = compliance[a].is_stiff_at(target[a]);
-            settled = settled && now == stiff[a];
-            stiff[a] = now;
         }
     }
 }

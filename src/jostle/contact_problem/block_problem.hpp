@@ -4,14 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "jostle/contact/contact_compliance.hpp"
-
 namespace jostle {
 
 inline constexpr std::size_t max_points = 3;    ///< contacts of one pair (append_contacts)
 using Points = std::array<double, max_points>;  ///< a number per contact of a pair
-
-using Compliances = std::array<ContactCompliance, max_points>;
 
 /// The part of A that belongs to the contacts of one pair.
 struct BlockMatrix {
@@ -20,14 +16,11 @@ struct BlockMatrix {
 };
 
 /// The pair's own contact problem with all other forces as they are: `target` holds gamma on entry and gamma* on
-/// return; `velocity`, of the gaps on entry, without what the contacts give way.
-///
-/// On which springs the contacts rest is guessed from `target`, and again from each solution, until it stays.
+/// return; `velocity`, of the gaps on entry.
 ///
 /// Every set of active points is tried, first that of `target`; where signs are right it is the solution. Where
 /// rounding leaves none, the set that violates the conditions least is taken. Nearly singular sets are left out: where
 /// three points are dependent, two of them do as well.
-void solve_block_problem(const BlockMatrix& pair, const Compliances& compliance, const Points& velocity,
-                         Points& target);
+void solve_block_problem(const BlockMatrix& pair, const Points& velocity, Points& target);
 
 }  // namespace jostle

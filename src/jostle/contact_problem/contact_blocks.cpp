@@ -25,7 +25,8 @@ double feasible_relaxation(const CoupledBlock& pair, const Points& target, doubl
 template <class Real>
 double solve(ScalarBlock<Real>& contact, double omega, const LocalRods<Real>& local_rods) {
     // Without a jump: which contacts push changes from sweep to sweep, and processors guess it badly.
-    const Real relaxed = contact.gamma + static_cast<Real>(omega) * contact.wanted_change(local_rods.velocities);
+    const Real relaxed = contact.gamma - static_cast<Real>(omega) * contact.gap_velocity(local_rods.velocities) *
+                                             contact.inverse_diagonal;
     const Real change = std::max(relaxed, Real{0}) - contact.gamma;
     contact.push(change, local_rods.velocities);
     return std::fabs(change) * contact.diagonal;
@@ -36,16 +37,14 @@ double solve(CoupledBlock& pair, double omega, const LocalRods<Real>& local_rods
     const ContactVelocity i = velocity_of_body(pair.i, local_rods.velocities);
     const ContactVelocity j = velocity_of_body(pair.j, local_rods.velocities);
     Points velocity{}, target{};
-    Compliances compliance;
     bool idle = true;
     for (std::uint32_t a = 0; a < pair.count; ++a) {
-        velocity[a] = pair.points[a].rigid_velocity(i, j);
+        velocity[a] = pair.points[a].gap_velocity(i, j);
         target[a] = pair.points[a].gamma;
-        compliance[a] = pair.points[a].compliance;
         idle = idle && target[a] == 0.0 && velocity[a] >= 0.0;
     }
     if (idle) return 0.0;
-    solve_block_problem(pair, compliance, velocity, target);
+    solve_block_problem(pair, velocity, target);
     const double factor = feasible_relaxation(pair, target, omega);
     double largest = 0.0;
     ContactForce on_i, on_j;

@@ -43,25 +43,16 @@ template <class Real>
 struct ScalarBlock {
     SpatialVector<Real> jacobian_i, jacobian_j, response_i, response_j;
     Real b = 0, gamma = 0;
-    Real soft = 0, stiff = 0, knee = 0;        ///< as those of ContactCompliance
-    Real diagonal = 0;                         ///< A_ll
-    Real inverse_soft = 0, inverse_stiff = 0;  ///< 1/(A_ll + soft) and so on; 0 where no force can open the gap
-    std::uint32_t i = 0, j = 0;                ///< local indices
-    std::uint32_t number = 0;                  ///< of the contact
+    Real compliance = 0;         ///< by which a force gives way, a part of A_ll
+    Real diagonal = 0;           ///< A_ll
+    Real inverse_diagonal = 0;   ///< 0 where no force can open the gap
+    std::uint32_t i = 0, j = 0;  ///< local indices
+    std::uint32_t number = 0;    ///< of the contact
 
     using Forces = Real;  ///< one, or one a point
 
-    Real rigid_velocity(const SpatialVector<Real>* velocities) const {
-        return b + sum_of_products(jacobian_i, velocities[i], jacobian_j, velocities[j]);
-    }
-    /// With what the contact gives way.
     Real gap_velocity(const SpatialVector<Real>* velocities) const {
-        return rigid_velocity(velocities) + std::min(soft * gamma, knee + stiff * gamma);
-    }
-    /// The change of its force that solves the contact's own problem: the larger of what either spring asks for.
-    Real wanted_change(const SpatialVector<Real>* velocities) const {
-        const Real velocity = rigid_velocity(velocities);
-        return std::max(-(velocity + soft * gamma) * inverse_soft, -(velocity + knee + stiff * gamma) * inverse_stiff);
+        return b + compliance * gamma + sum_of_products(jacobian_i, velocities[i], jacobian_j, velocities[j]);
     }
     void push(Real change, SpatialVector<Real>* velocities) {
         gamma += change;
@@ -76,14 +67,10 @@ struct CoupledBlock : BlockMatrix {
     struct Point {
         Vec3 normal;
         double arm_i, arm_j;
-        double b, gamma;  // as those of a ScalarBlock
-        ContactCompliance compliance;
+        double b, gamma, compliance;  // as those of a ScalarBlock
 
-        double rigid_velocity(const ContactVelocity& rod_i, const ContactVelocity& rod_j) const {
-            return b + gap_rate(*this, rod_i, rod_j);
-        }
         double gap_velocity(const ContactVelocity& rod_i, const ContactVelocity& rod_j) const {
-            return rigid_velocity(rod_i, rod_j) + compliance.at(gamma);
+            return b + compliance * gamma + gap_rate(*this, rod_i, rod_j);
         }
     };
     using Forces = Points;

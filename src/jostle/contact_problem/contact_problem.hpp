@@ -9,19 +9,18 @@
 
 namespace jostle {
 
-/// The contact problem of a step: forces gamma with 0 <= A gamma + w(gamma) + b  perp  gamma >= 0 (theory,
-/// eq. 2.5, 3.5), w by how much contacts give way, for contacts that it owns. A solver holds a reference, and takes in
-/// what is appended when it goes on.
+/// The contact problem of a step: forces gamma with 0 <= A gamma + b  perp  gamma >= 0 (theory, eq. 2.5), for contacts
+/// that it owns. A solver holds a reference, and takes in what is appended when it goes on.
 ///
 /// Where other ranks have rods, too, it is this rank's part of the problem: all contacts of its own rods. Those with
 /// ghosts are other ranks' contacts as well, and one of the two adds them up.
 class ContactProblem {
 public:
-    /// `b`: (contacts) the velocity of each gap without forces; empty where forces are not sought. `compliance`: of
-    /// the contacts. `start`: (contacts) forces to begin from; empty: from 0. Holds references to rods, mobility and
-    /// domain.
+    /// `b`: (contacts) the velocity of each gap without forces; empty where forces are not sought. `compliance`: kappa
+    /// of the DelassusOperator. `start`: (contacts) forces to begin from; empty: from 0. Holds references to rods,
+    /// mobility and domain.
     ContactProblem(const Rods& rods, const MobilityOperator& mobility, Contacts contacts, std::vector<double> b,
-                   double time_step, const ComplianceLaw& compliance = {}, std::vector<double> start = {},
+                   double time_step, double compliance = 0.0, std::vector<double> start = {},
                    const Domain& domain = Domain::whole())
         : contacts_(std::move(contacts)),
           contact_matrix_(contacts_, rods.id, included(mobility), domain.owned_of(rods.size())),

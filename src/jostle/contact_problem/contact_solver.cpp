@@ -1,7 +1,6 @@
 #include "jostle/contact_problem/contact_solver.hpp"
 
 #include "jostle/contact_problem/projected_sor.hpp"
-#include "jostle/contact_problem/spring_operator.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/lcp/adaptive_bb.hpp"
 #include "jostle/lcp/apgd.hpp"
@@ -32,23 +31,15 @@ public:
 
 private:
     LcpResult solve(std::span<const double> start) const {
-        if (!problem_.matrix().is_compliant()) return solve(problem_.lcp(), start);
-        const SpringOperator springs(problem_.matrix(), problem_.constant());
-        const std::vector<double> split = start.empty() ? std::vector<double>{} : springs.split(start);
-        LcpResult result = solve({springs, springs.constant(), problem_.time_step()}, split);
-        result.solution = springs.joined(result.solution);
-        return result;
-    }
-    LcpResult solve(const LcpProblem& problem, std::span<const double> start) const {
         switch (method_) {
             case SolverMethod::bbpgd:
-                return solve_bbpgd(problem, settings_, start);
+                return solve_bbpgd(problem_.lcp(), settings_, start);
             case SolverMethod::apgd:
-                return solve_apgd(problem, settings_, start);
+                return solve_apgd(problem_.lcp(), settings_, start);
             case SolverMethod::minimum_map_newton:
-                return solve_minimum_map_newton(problem, settings_, start);
+                return solve_minimum_map_newton(problem_.lcp(), settings_, start);
             default:
-                return solve_adaptive_bb(problem, settings_, start);
+                return solve_adaptive_bb(problem_.lcp(), settings_, start);
         }
     }
 

@@ -5,7 +5,7 @@
 namespace jostle {
 
 DelassusOperator::DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods,
-                                   const MobilityOperator& mobility, const ComplianceLaw& compliance)
+                                   const MobilityOperator& mobility, double compliance)
     : contact_matrix_(contact_matrix), all_rods_(rods), mobility_(mobility), compliance_(compliance) {
     extend();
 }
@@ -21,7 +21,7 @@ void DelassusOperator::extend() {
     diagonal_.resize(contact_matrix_.size());
     parallel_for(diagonal_.size() - known_contacts, [&](std::size_t k) {
         const std::size_t l = known_contacts + k;
-        diagonal_[l] = relative_mobility_of(l);
+        diagonal_[l] = (1.0 + compliance_) * relative_mobility_of(l);
     });
 }
 
@@ -38,14 +38,14 @@ void DelassusOperator::apply(std::span<const double> gamma, std::span<double> ra
     forces_.resize(rods_.size());
     velocities_.resize(rods_.size());
     velocities(gamma, forces_, velocities_);
-    contact_matrix_.apply_transpose(velocities_, rates);
+    this->rates(velocities_, gamma, rates);
 }
 
 void DelassusOperator::rates(std::span<const ContactVelocity> velocities, std::span<const double> gamma,
                              std::span<double> rates) const {
     contact_matrix_.apply_transpose(velocities, rates);
-    if (!is_compliant()) return;
-    parallel_for(rates.size(), [&](std::size_t l) { rates[l] += compliance(l).at(gamma[l]); });
+    if (!compliant()) return;
+    parallel_for(rates.size(), [&](std::size_t l) { rates[l] += compliance(l) * gamma[l]; });
 }
 
 void DelassusOperator::velocities(std::span<const double> gamma, std::span<ContactForce> forces,

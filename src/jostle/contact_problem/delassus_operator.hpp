@@ -1,6 +1,5 @@
 #pragma once
 
-#include "jostle/contact/contact_compliance.hpp"
 #include "jostle/contact/contact_matrix.hpp"
 #include "jostle/lcp/linear_operator.hpp"
 #include "jostle/mobility/mobility.hpp"
@@ -9,12 +8,12 @@ namespace jostle {
 
 /// A = D^T M D (theory, eq. 2.4): gap velocities caused by contact forces. The place where contact and mobility meet.
 ///
-/// Never formed: one application is a gather over the rods that have contacts, the mobility, and a pass over contacts.
-/// Knows the compliance of the contacts, which comes beside it (theory, eq. 3.5). Holds references.
+/// With a compliance kappa it is D^T M D + kappa diag(D^T M D) (theory, eq. 3.5): positive definite. Never formed: one
+/// application is a gather over the rods that have contacts, the mobility, and a pass over contacts. Holds references.
 class DelassusOperator final : public LinearOperator {
 public:
     DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods, const MobilityOperator& mobility,
-                     const ComplianceLaw& compliance = {});
+                     double compliance = 0.0);
 
     /// Takes in what the contact matrix has been extended by.
     void extend();
@@ -22,22 +21,19 @@ public:
     std::size_t size() const override { return contact_matrix_.size(); }
     void apply(std::span<const double> gamma, std::span<double> rates) const override;
 
-    /// A_ll
+    /// A_ll, compliance included.
     std::span<const double> diagonal() const override { return diagonal_; }
 
-    /// Of one contact.
-    ContactCompliance compliance(std::size_t l) const {
-        const auto [i, j] = contact_matrix_.rod_pairs()[l];
-        return compliance_.of(diagonal_[l], i == j);
-    }
-    bool is_compliant() const { return !compliance_.is_hard(); }
+    /// kappa (D^T M D)_ll
+    double compliance(std::size_t l) const { return compliance_ * (diagonal_[l] / (1.0 + compliance_)); }
+    bool compliant() const { return compliance_ > 0.0; }
 
     const ContactMatrix& contact_matrix() const { return contact_matrix_; }
 
     std::span<const MobileRod> rods() const { return rods_; }  ///< (n) those with contacts
     bool couples_rods() const { return mobility_.couples_rods(); }
 
-    /// A gamma, from M D gamma, and what compliant contacts give way beside it.
+    /// A gamma, from M D gamma.
     void rates(std::span<const ContactVelocity> velocities, std::span<const double> gamma,
                std::span<double> rates) const;
 
@@ -52,7 +48,7 @@ private:
     const ContactMatrix& contact_matrix_;
     const Rods& all_rods_;
     const MobilityOperator& mobility_;
-    ComplianceLaw compliance_;
+    double compliance_;
     std::vector<MobileRod> rods_;
     std::vector<double> diagonal_;
     mutable std::vector<ContactForce> forces_;         ///< (n) scratch

@@ -14,10 +14,10 @@ namespace jostle {
 namespace {
 
 /// Over-relaxation: measured best between 1.3 and 1.4 for hard contacts of dilute and isotropic rods, between 1.0
-/// and 1.1 for compliant ones, whose problem is better conditioned; harder problems want more, and so do those that
+/// and 1.1 for compliant ones, whose matrix is better conditioned; harder problems want more, and so do those that
 /// begin warm, with what is left to the slowest modes of a crowd, where momentum has failed.
-double relaxation(std::uint64_t sweep, bool is_compliant, bool warm) {
-    return sweep >= 60 || warm ? 1.6 : is_compliant ? 1.1 : 1.35;
+double relaxation(std::uint64_t sweep, bool compliant, bool warm) {
+    return sweep >= 60 || warm ? 1.6 : compliant ? 1.1 : 1.35;
 }
 
 /// Every so many sweeps, and after a verification, one passes over all contacts.
@@ -131,7 +131,7 @@ private:
     double sweep_over_relaxed() {
         const bool all =
             std::exchange(look_at_all_, false) || outcome_.iterations % full_sweep_every == full_sweep_every - 1;
-        const double omega = relaxation(outcome_.iterations, problem_.matrix().is_compliant(), warm_);
+        const double omega = relaxation(outcome_.iterations, problem_.matrix().compliant(), warm_);
         return sweeper_.sweep(omega, all ? SweepOver::all : SweepOver::active);
     }
 

@@ -95,7 +95,6 @@ StepGeometry step_geometry(const State& state, const KnownMotion& known, const S
             known.displacement,
             shift,
             search_ranges(state, known, sizes, settings, domain),
-            settings.corrects_brownian_motion() ? normals_after_part : 0.0,
             settings.rods_are_soft()};
 }
 

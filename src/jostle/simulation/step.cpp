@@ -125,8 +125,7 @@ ContactProblem Simulation::posed_problem(const MobilityOperator& mobility, Conta
     std::vector<double> b, start;
     if (!settings_.rods_are_soft()) b = gap_velocities(found);
     if (settings_.warm_start) start = starting_forces(found, state_.rods.id, state_.previous_forces);
-    const ComplianceLaw compliance =
-        settings_.corrects_brownian_motion() ? brownian_compliance(settings_.kT, settings_.time_step) : ComplianceLaw{};
+    const double compliance = settings_.corrects_brownian_motion() ? contact_compliance : 0.0;
     return ContactProblem(state_.rods, mobility, std::move(found), std::move(b), settings_.time_step, compliance,
                           std::move(start), domain_);
 }

@@ -60,14 +60,13 @@ struct Moves {
                                     static_cast<float>(1.00001 * farthest_displacement(shift, turned, half)), 1e-5F});
         }
     }
-    StepGeometry step(double range = 0.0, double normals_after = 0.0) const {
+    StepGeometry step(double range = 0.0) const {
         return {rods_before,
                 in_box,
                 known,
                 farthest_known,
                 {shift_part, rods_before.axis, own, 1.0, 1.0},
-                {displacement_limit, skin, margin, range},
-                normals_after};
+                {displacement_limit, skin, margin, range}};
     }
     EndConfiguration end() const {
         return {rods_before, known_velocity, known, 1.0, local_index, rows, velocity, displacement};
@@ -205,42 +204,4 @@ TEST_CASE("what is found does not depend on when the neighbour list was built") 
     }
     CHECK(early > 10);
     CHECK(late > early / 2);
-}
-
-TEST_CASE("normals and arms are those after a part of the known motion, gaps those before it, shifted ones after it") {
-    const unsigned seed = 23;
-    CAPTURE(seed);
-    std::mt19937_64 engine(seed);
-    const Box box{{18, 18, 18}, {true, true, true}};
-    const Rods rods = thrown(150, box, 5.0, 1.0, engine);
-    const Moves moves(rods, box, 0.05, 0.0, engine);
-    Configuration half = moves.known;
-    for (std::uint32_t i = 0; i < rods.size(); ++i) {
-        half.centre[i] = 0.5 * (rods.centre[i] + half.centre[i]);
-        half.axis[i] = normalised(rods.axis[i] + half.axis[i]);
-    }
-    CollisionSearch search;
-    Contacts contacts;
-    search.find(moves.step(0.0, 0.5), contacts);
-    std::size_t turned = 0;
-    for (std::size_t l = 0; l < contacts.size(); ++l) {
-        const Contact& contact = contacts.contact[l];
-        if (contacts.feature[l] != ContactFeature::nearest) continue;
-        const auto pair = [&](const std::vector<Vec3>& centre, const std::vector<Vec3>& axis) {
-            return pair_geometry(rods, contact.i, contact.j, box.displacement(contacts.image[l]), centre, axis);
-        };
-        const PairGeometry before = pair(rods.centre, rods.axis);
-        const NearestPoints on_the_way = nearest_points(pair(half.centre, half.axis));
-        if (dot(on_the_way.separation, nearest_points(before).separation) <= 0.0) continue;  // passed through
-        const Vec3 normal = normalised(on_the_way.separation);
-        CHECK(norm(contact.normal - normal) < 1e-12);
-        CHECK(contact.arm_i == doctest::Approx(on_the_way.s_i).epsilon(1e-12));
-        CHECK(contact.arm_j == doctest::Approx(on_the_way.s_j).epsilon(1e-12));
-        CHECK(std::fabs(contact.gap) == doctest::Approx(std::fabs(pair_gap(before))).epsilon(1e-12));
-        const PairGeometry after = pair(moves.known.centre, moves.known.axis);
-        if (dot(nearest_points(after).separation, normal) <= 0.0) continue;
-        CHECK(contact.shifted_gap == doctest::Approx(pair_gap(after) - touching).epsilon(1e-12));
-        turned += norm(normal - normalised(nearest_points(before).separation)) > 0.01 ? 1 : 0;
-    }
-    CHECK(turned > 20);
 }

@@ -1,7 +1,6 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
-#include <cmath>
 #include <numbers>
 #include <vector>
 
@@ -13,114 +12,80 @@ namespace {
 
 /// Stationary Gaussian walk (variance 1) in front of a compliant wall at 0, in a bath of density 1:
 ///
-///     end of a step without the wall:  y = x + xi                            g(y): how often
-///     with it:                         y + push,  y + push + give(push) = 0  where y < 0
+///     end of a step without the wall:  y = x + xi          g(y): how often
+///     with it:                         y if y > 0, else k y,   k = kappa/(1 + kappa)
 ///
-/// g(y) = integral of phi(y - end(y')) g(y') dy', solved by Gauss-Legendre quadrature on three stretches, from -10 to
-/// where the wall is stiff, from there to 0, and to 16, beyond which g is 1.
+/// g(y) = integral of phi(y - end(y')) g(y') dy', solved on a grid from -9 to 15 (Simpson), beyond which g is 1.
 struct WalkAtWall {
-    double excess = 0.0;      ///< how many more walkers there are than in front of a wall of continuous motion at 0
-    double mean_place = 0.0;  ///< the sum of their places beyond `excess` behind the wall, less that of those
-    double half_way = 0.0;    ///< mean place half way between y < 0 and its end, weighted by the push it gets
-    double mean_push = 0.0;   ///< a step
+    double excess = 0.0;     ///< how many more walkers there are than in front of a wall of continuous motion at 0
+    double half_way = 0.0;   ///< mean place half way between y < 0 and its end, weighted by the push it gets
+    double mean_push = 0.0;  ///< a step
 };
 
-struct Nodes {
-    std::vector<double> place, weight;
-
-    /// `count` more, of Gauss and Legendre, from begin to end.
-    void add(double begin, double end, int count) {
-        for (int k = 0; k < count; ++k) {
-            double x = std::cos(std::numbers::pi * (k + 0.75) / (count + 0.5)), slope = 0.0;
-            for (int newton = 0; newton < 20; ++newton) {
-                double before = 1.0, value = x;
-                for (int n = 2; n <= count; ++n) {
-                    const double next = ((2 * n - 1) * x * value - (n - 1) * before) / n;
-                    before = value;
-                    value = next;
-                }
-                slope = count * (x * value - before) / (x * x - 1.0);
-                x -= value / slope;
-            }
-            place.push_back(0.5 * (begin + end) + 0.5 * (end - begin) * x);
-            weight.push_back((end - begin) / ((1.0 - x * x) * slope * slope));
+WalkAtWall walk_at_wall(double kappa) {
+    constexpr int below = 360, above = 600;  // intervals
+    constexpr double spacing = 0.025, far = above * spacing;
+    const double k = kappa / (1.0 + kappa);
+    std::vector<double> y, weight;
+    const auto add = [&](double begin, int intervals) {
+        for (int n = 0; n <= intervals; ++n) {
+            y.push_back(begin + n * spacing);
+            weight.push_back(spacing / 3.0 * (n == 0 || n == intervals ? 1.0 : n % 2 == 1 ? 4.0 : 2.0));
         }
-    }
-};
-
-/// Of a contact with A_ll = 1 in a step of 1.
-double push_of(double y, const ComplianceLaw& law) {
-    return std::max({0.0, -y / (1.0 + law.soft), (-y - law.knee) / (1.0 + law.stiff)});
-}
-
-WalkAtWall walk_at_wall(const ComplianceLaw& law) {
-    constexpr double far = 16.0, farthest_behind = -10.0;
-    const double stiff_from = law.soft > law.stiff ? -law.knee * (1.0 + law.soft) / (law.soft - law.stiff) : -1.0;
-    Nodes nodes;
-    nodes.add(farthest_behind, stiff_from, 60);
-    nodes.add(stiff_from, 0.0, 60);
-    nodes.add(0.0, far, 100);
-    const auto size = static_cast<Eigen::Index>(nodes.place.size());
+    };
+    add(-below * spacing, below);
+    const std::size_t wall = y.size();
+    add(0.0, above);
+    const auto size = static_cast<Eigen::Index>(y.size());
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(size, size);
     Eigen::VectorXd from_far(size);
     for (Eigen::Index a = 0; a < size; ++a) {
-        const double here = nodes.place[static_cast<std::size_t>(a)];
+        const double here = y[static_cast<std::size_t>(a)];
         from_far[a] = 0.5 * std::erfc((far - here) / std::numbers::sqrt2);
-        for (Eigen::Index c = 0; c < size; ++c) {
-            const double y = nodes.place[static_cast<std::size_t>(c)];
-            const double step = here - (y + push_of(y, law));
-            matrix(a, c) -= nodes.weight[static_cast<std::size_t>(c)] * std::exp(-0.5 * step * step) /
-                            std::sqrt(2.0 * std::numbers::pi);
+        for (std::size_t c = 0; c < y.size(); ++c) {
+            const double end = c < wall ? k * y[c] : y[c];
+            const double phi = std::exp(-0.5 * (here - end) * (here - end)) / std::sqrt(2.0 * std::numbers::pi);
+            matrix(a, static_cast<Eigen::Index>(c)) -= weight[c] * phi;
         }
     }
     const Eigen::VectorXd g = matrix.partialPivLu().solve(from_far);
     WalkAtWall walk;
-    double places = 0.0, first = 0.0;
-    for (Eigen::Index c = 0; c < size; ++c) {
-        const double y = nodes.place[static_cast<std::size_t>(c)], push = push_of(y, law);
-        const double count = nodes.weight[static_cast<std::size_t>(c)] * g[c];
+    double first = 0.0;
+    for (std::size_t c = 0; c < y.size(); ++c) {
+        const double count = weight[c] * g[static_cast<Eigen::Index>(c)];
         walk.excess += count;
+        if (c >= wall) continue;
+        const double push = (1.0 - k) * -y[c];
         walk.mean_push += count * push;
-        places += count * (y + push);
-        first += count * push * (y + 0.5 * push);
+        first += count * push * 0.5 * (1.0 + k) * y[c];
     }
-    const double walkers = walk.excess;  // from -excess to far, of continuous motion
     walk.excess -= far;
-    walk.mean_place = places + walk.excess * walkers - 0.5 * walkers * walkers;
     walk.half_way = first / walk.mean_push;
     return walk;
 }
 
-const ComplianceLaw ours = brownian_compliance(0.5, 1.0);  // sigma = 1
-
 }  // namespace
 
-TEST_CASE("the shift vanishes without thermal motion, and contacts are then hard") {
+TEST_CASE("the shift vanishes without thermal motion") {
     CHECK(brownian_shift(0.0, 0.1, 2.0) == 0.0);
     CHECK(brownian_shift(1.0, 0.5, 1.0) == discrete_watching);
-    CHECK(brownian_compliance(0.0, 0.1).soft == 0.0);
-    CHECK(brownian_compliance(0.0, 0.1).knee == 0.0);
 }
 
 TEST_CASE("the shift belongs to the compliance: as many walkers as at a wall of continuous motion") {
-    CHECK(walk_at_wall(ours).excess == doctest::Approx(discrete_watching).epsilon(1e-9));
-    CHECK(walk_at_wall({own_image_compliance, own_image_compliance, 0.0}).excess ==
-          doctest::Approx(own_image_watching).epsilon(1e-9));
+    CHECK(walk_at_wall(contact_compliance).excess == doctest::Approx(discrete_watching).epsilon(1e-7));
     // Without compliance: -zeta(1/2)/sqrt(2 pi).
-    CHECK(walk_at_wall({}).excess == doctest::Approx(0.5825971579390107).epsilon(1e-9));
-}
-
-TEST_CASE("contacts become stiff where walkers then have the mean place of continuous motion") {
-    CHECK(std::fabs(walk_at_wall(ours).mean_place) < 1e-9);
-    CHECK(walk_at_wall({}).mean_place > 0.1);  // too far from the wall, as with all contacts that are too hard
-    const ComplianceLaw one_spring{0.25, 0.25, 0.0};
-    CHECK(walk_at_wall(one_spring).mean_place == doctest::Approx(0.1176).epsilon(1e-3));
+    const double hard = 0.5825971579390107, harmonic = std::numbers::pi / 8.0;
+    CHECK(walk_at_wall(0.0).excess == doctest::Approx(hard).epsilon(1e-7));
+    for (const double kappa : {1.0, 4.0})  // theory, eq. 3.5a
+        CHECK(walk_at_wall(kappa).excess == doctest::Approx(std::sqrt(harmonic * (1.0 + 2.0 * kappa) -
+                                                                      (harmonic - hard * hard) / (1.0 + 0.84 * kappa)))
+                                                .epsilon(5e-4));
 }
 
 TEST_CASE("with that shift forces act, in the mean, at touching, and the walls feel the ideal pressure") {
-    for (const ComplianceLaw& law : {ComplianceLaw{}, ComplianceLaw{1.0, 1.0, 0.0}, ours}) {
-        const WalkAtWall walk = walk_at_wall(law);
-        CHECK(walk.half_way == doctest::Approx(-walk.excess).epsilon(1e-9));
-        CHECK(walk.mean_push == doctest::Approx(0.5).epsilon(1e-9));  // kT n, with sigma^2 = 2 kT dt mobility = 1
+    for (const double kappa : {0.0, contact_compliance, 1.0}) {
+        const WalkAtWall walk = walk_at_wall(kappa);
+        CHECK(walk.half_way == doctest::Approx(-walk.excess).epsilon(1e-7));
+        CHECK(walk.mean_push == doctest::Approx(0.5).epsilon(1e-7));  // kT n, with sigma^2 = 2 kT dt mobility = 1
     }
 }
