@@ -32,6 +32,7 @@ public:
 
     std::span<const MobileRod> rods() const { return rods_; }  ///< (n) those with contacts
     bool couples_rods() const { return mobility_.couples_rods(); }
+    const MobilityOperator& mobility() const { return mobility_; }
 
     /// A gamma, from M D gamma.
     void rates(std::span<const ContactVelocity> velocities, std::span<const double> gamma,

@@ -35,7 +35,8 @@ struct StepSums {
     double run_max_overlap = 0.0;
     // of swimmers
     std::optional<ActiveStress> active_stress;
-    Mat3 active_virial;  ///< V times it, at the step of the row
+    Mat3 active_virial;                  ///< V times it, at the step of the row
+    Mat3 dipole_virial, thermal_virial;  ///< likewise of stresslets, where swimmers stir the fluid
     // since the last field
     std::optional<StressField> field;
 
