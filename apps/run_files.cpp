@@ -89,23 +89,21 @@ std::vector<DescribedTable> described_tables(const Scene& scene) {
     return tables;
 }
 
-RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::string resolved_scene,
+RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, const std::string& resolved_scene,
                    const Simulation& simulation, const StepSums& sums)
     : directory_(directory),
       scene_(scene),
-      resolved_scene_(std::move(resolved_scene)),
       series_file_(SeriesFile::create(directory.file("series.csv"), series_columns(scene).about())),
       contact_columns_(contact_columns(scene)),
       lineage_columns_(lineage_columns(scene)) {
     open_others(simulation, {});
-    write_checkpoint(simulation, sums);
+    write_checkpoint(checkpoint_of(simulation, sums, resolved_scene));
 }
 
-RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::string resolved_scene,
-                   const Simulation& simulation, const FilePositions& positions)
+RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, const Simulation& simulation,
+                   const FilePositions& positions)
     : directory_(directory),
       scene_(scene),
-      resolved_scene_(std::move(resolved_scene)),
       series_file_(resumed_series(directory, scene, positions)),
       contact_columns_(contact_columns(scene)),
       lineage_columns_(lineage_columns(scene)) {
@@ -136,8 +134,7 @@ void RunFiles::append_row(const std::vector<double>& row) {
     series_file_.append(row);
 }
 
-void RunFiles::append_frame(const Simulation& simulation) {
-    const Rods rods = in_order_of_ids(simulation.rods());
+void RunFiles::append_frame(const Simulation& simulation, const Rods& rods) {
     append_frame(simulation, rods,
                  scene_.output.stress_per_rod ? stress_of_last_step(simulation, rods.id) : std::vector<Mat3>{});
 }
@@ -168,8 +165,7 @@ void RunFiles::append(std::size_t table, const TableRows& rows) {
     for (const std::vector<double>& row : rows) side_files_[table]->append(row);
 }
 
-void RunFiles::write_checkpoint(const Simulation& simulation, const StepSums& sums) {
-    Checkpoint checkpoint = checkpoint_of(simulation, sums, resolved_scene_);
+void RunFiles::write_checkpoint(Checkpoint checkpoint) {
     const auto keep = [&](const std::string& name, auto& file) {
         file.sync();
         checkpoint.files[name] = {file.bytes(), file.hash()};

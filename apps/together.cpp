@@ -1,0 +1,63 @@
+#include "together.hpp"
+
+#include <algorithm>
+
+#include "jostle/disk/checksum.hpp"
+#include "jostle/error/input_error.hpp"
+#include "jostle/run_files/version.hpp"
+#include "run_record.hpp"
+
+using namespace jostle;
+
+namespace {
+
+std::vector<std::string> hosts_of(const Ranks& ranks) {
+    const std::string own = host_name();
+    std::vector<std::vector<char>> to(static_cast<std::size_t>(ranks.count()));
+    to[0].assign(own.begin(), own.end());
+    std::vector<std::string> hosts;
+    for (const auto& name : ranks.deal(to)) hosts.emplace_back(name.begin(), name.end());
+    std::sort(hosts.begin(), hosts.end());
+    hosts.erase(std::unique(hosts.begin(), hosts.end()), hosts.end());
+    return hosts;
+}
+
+}  // namespace
+
+Together::Together(const Ranks& ranks) : ranks_(ranks), hosts_(hosts_of(ranks)) {}
+
+void Together::require_ready(const Scene& scene, const Simulation& simulation) const {
+    if (ranks_.alone()) return;
+    if (scene.output.contacts)
+        throw InputError({.key = "output.contacts",
+                          .value = "true",
+                          .problem = "the table of contacts is not ready for several ranks",
+                          .suggestion = "Run it on one, or without it"});
+    simulation.require_ready_for_ranks();
+}
+
+void Together::begin(const RunScene& scene, const Simulation& simulation, const StepSums& sums) {
+    have_begun_ = true;
+    if (!ranks_.alone()) ranks_.of_first(packed(checkpoint_of(simulation, sums, scene.text)));
+}
+
+void Together::call_off() const {
+    ranks_.of_first("");
+}
+
+std::optional<Checkpoint> Together::wait_for_first() const {
+    const std::string told = ranks_.of_first("");
+    if (told.empty()) return std::nullopt;
+    return unpacked(told);
+}
+
+void require_same_command(const Ranks& ranks, const RunOptions& options) {
+    const bool same = ranks.all_have(checksum(options.command_line + '\n' + program_version + '\n' + program_commit));
+    if (same || ranks.rank() > 0) return;
+    throw InputError({.key = "ranks",
+                      .value = std::to_string(ranks.count()),
+                      .problem = "they were started with different commands, or different builds of jostle, and make "
+                                 "one run together",
+                      .suggestion = "Start all with the same words; runs that have nothing to do with each other need "
+                                    "--alone"});
+}
