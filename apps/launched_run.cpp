@@ -31,7 +31,8 @@ ExitCode accompany(const RunOptions& options, Together& together) {
 }  // namespace
 
 ExitCode launched_run(const RunOptions& options, const std::function<ExitCode(Together&)>& first) {
-    if (!LaunchedRanks::are_built_in() && launch_in_environment().rank > 0) return ExitCode::bad_input;  // the first tells
+    if (!LaunchedRanks::are_built_in() && launch_in_environment().rank > 0)
+        return ExitCode::bad_input;  // the first tells
     LaunchedRanks launched;
     const Ranks ranks = launched.ranks();
     parallel::share_processors(launched.on_this_machine());

@@ -52,6 +52,7 @@ Run::Run(const RunOptions& options, const RunScene& scene, Simulation& simulatio
       measurement_(measurement),
       ranks_(together.ranks()),
       files_(files),
+      contact_columns_(contact_columns(scene_)),
       directory_(directory),
       volume_fraction_(total_volume(simulation.rods(), simulation.box().dimensions()) / simulation.box().volume()),
       thinnest_(smallest_diameter(scene_, simulation.rods())),
@@ -159,13 +160,20 @@ void Run::require_same(const StepReport& report, const Due& due) {
 
 void Run::write_what_is_due(const Due& due, bool checkpoint_is_overdue) {
     if (due.row && is_first()) files_->append_row(measurement_.last_row());
-    if (due.row && scene_.output.contacts) files_->append_contacts(simulation_);
-    if (due.frame) {
-        const Rods rods = simulation_.domain().at_first_rank(simulation_.rods());
-        if (is_first()) files_->append_frame(simulation_, rods);
+    if (due.row && scene_.output.contacts) {
+        const TableRows rows = contact_rows(contact_columns_, simulation_);
+        if (is_first()) files_->append_contacts(rows);
     }
-    if (due.field) files_->append_field(measurement_.last_field());
+    if (due.frame) append_frame();
+    if (due.field && is_first()) files_->append_field(measurement_.last_field());
     if (due.checkpoint || checkpoint_is_overdue) checkpoint();
+}
+
+void Run::append_frame() {
+    const Rods rods = simulation_.domain().at_first_rank(simulation_.rods());
+    CollisionMoments moments;
+    if (scene_.output.stress_per_rod) moments = at_first_rank(simulation_.collision_moments(), ranks_);
+    if (is_first()) files_->append_frame(simulation_, rods, moments);
 }
 
 void Run::checkpoint() {
@@ -194,14 +202,15 @@ bool Run::wall_time_is_over(double still_to_be_done) const {
 void Run::show_progress(const std::string& remark) {
     if (!is_first()) return;
     const SeriesTable& series = measurement_.series();
-    const double filled = ranks_.alone() ? total_volume(simulation_.rods(), simulation_.box().dimensions()) / simulation_.box().volume() : volume_fraction_;
+    const double filled =
+        ranks_.alone() ? total_volume(simulation_.rods(), simulation_.box().dimensions()) / simulation_.box().volume()
+                       : volume_fraction_;
     const auto last = [&](const char* column) {
         return series.rows() == 0 ? std::nan("") : series.column(column).back();
     };
-    progress_.show({simulation_.clock().step, simulation_.clock().time,
-                    filled, last("Z"),
-                    measurement_.sums().run_max_overlap / thinnest(), last("iterations"),
-                    last("contacts"), measurement_.fraction_done(), remark});
+    progress_.show({simulation_.clock().step, simulation_.clock().time, filled, last("Z"),
+                    measurement_.sums().run_max_overlap / thinnest(), last("iterations"), last("contacts"),
+                    measurement_.fraction_done(), remark});
 }
 
 void Run::write_trajectory() const {
@@ -226,7 +235,7 @@ ExitCode Run::stop_early(const std::string& reason) {
     record(reason);
     show_progress();
     const std::string how = directory_->was_moved() ? "its folder was moved: to go on give --out " + directory_->path()
-                                                   : "run the same command again to go on";
+                                                    : "run the same command again to go on";
     if (!options_.quiet)
         std::fprintf(stderr, "\njostle: stopped at step %llu (%s); %s\n",
                      static_cast<unsigned long long>(simulation_.clock().step), reason.c_str(), how.c_str());

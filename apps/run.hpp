@@ -6,6 +6,7 @@
 
 #include "exit_code.hpp"
 #include "jostle/measurement/measurement.hpp"
+#include "jostle/measurement/side_tables.hpp"
 #include "jostle/run_files/run_directory.hpp"
 #include "jostle/simulation/simulation.hpp"
 #include "progress_line.hpp"
@@ -43,6 +44,7 @@ private:
     Decision decide();
     void require_same(const jostle::StepReport& report, const jostle::Due& due);
     void write_what_is_due(const jostle::Due& due, bool checkpoint_is_overdue);
+    void append_frame();
     void checkpoint();
     void record(const std::string& exit_reason);
     bool wall_time_is_over(double still_to_be_done) const;
@@ -61,6 +63,7 @@ private:
     jostle::Measurement& measurement_;
     jostle::Ranks ranks_;
     RunFiles* files_;
+    jostle::TableColumns<jostle::ContactState> contact_columns_;
     const jostle::RunDirectory* directory_;
     std::optional<RunRecord> record_;
     double volume_fraction_, thinnest_;  ///< of all rods before they are shared, and their smallest diameter

@@ -76,7 +76,8 @@ std::string freed(const std::string& folder, bool quiet) {
 }
 
 ExitCode start_run(const RunOptions& options, const RunScene& scene, std::string folder, Together& together) {
-    require_place_for_run(folder);  // before the time that a dense start takes
+    together.require_ready(scene.scene);  // before the time that a dense start takes
+    require_place_for_run(folder);
     const Scene::RodsTable& rods = scene.scene.rods;
     const bool draws = rods.start == StartKind::random || rods.start == StartKind::aligned;
     if (draws && rods.count >= many_to_place && !options.quiet && !options.json)
@@ -88,7 +89,7 @@ ExitCode start_run(const RunOptions& options, const RunScene& scene, std::string
     const nlohmann::ordered_json start = start_entry(scene.scene, beginning);
     if (!options.quiet && !options.json) std::fputs(start_text(start, watch.seconds()).c_str(), stderr);
     Simulation simulation = assemble(scene.scene, std::move(beginning.state));
-    together.require_ready(scene.scene, simulation);
+    if (!together.ranks().alone()) simulation.require_ready_for_ranks();
     if (options.fresh) folder = freed(folder, options.quiet);
     const RunDirectory directory(folder);
     write_scene(scene, directory);
@@ -102,6 +103,7 @@ ExitCode start_run(const RunOptions& options, const RunScene& scene, std::string
 ExitCode resume_run(const RunOptions& options, const RunScene& scene, const RunDirectory& directory,
                     Checkpoint checkpoint, Together& together) {
     require_same_scene(checkpoint, scene.scene, directory.path());
+    together.require_ready(scene.scene);
     require_same_springs(checkpoint,
                          in_scene_file(scene.path,
                                        [&] {
@@ -113,7 +115,7 @@ ExitCode resume_run(const RunOptions& options, const RunScene& scene, const RunD
                             scene.scene.rods.fixed);
     StepSums sums = StepSums::from_named(std::move(checkpoint.sums), scene.scene, checkpoint.state.box);
     Simulation simulation = assemble(scene.scene, std::move(checkpoint.state));
-    together.require_ready(scene.scene, simulation);
+    if (!together.ranks().alone()) simulation.require_ready_for_ranks();
     RunFiles files(directory, scene.scene, simulation, checkpoint.files);
     write_scene(scene, directory);  // it may have another end, and what was there may be damaged
     write_fixed_rods(simulation.box(), directory);

@@ -37,10 +37,11 @@ public:
              const jostle::FilePositions& positions);
 
     void append_row(const std::vector<double>& row);
-    /// `rods`: of all ranks, in the order of ids.
-    void append_frame(const jostle::Simulation& simulation, const jostle::Rods& rods);
-    /// The contacts with a force in the last step.
-    void append_contacts(const jostle::Simulation& simulation);
+    /// `rods`: of all ranks, in the order of ids; `moments` of the last step: of all, too, if the stress of each rod is
+    /// asked for.
+    void append_frame(const jostle::Simulation& simulation, const jostle::Rods& rods,
+                      const jostle::CollisionMoments& moments);
+    void append_contacts(const jostle::TableRows& rows);
     void append_field(const jostle::TableRows& rows);
     /// Who was born and who died after the last step.
     void append_lineage(const jostle::Simulation& simulation);
@@ -62,6 +63,5 @@ private:
     jostle::SeriesFile series_file_;
     std::optional<jostle::TrajectoryJournal> journal_;
     std::array<std::optional<jostle::SeriesFile>, 3> side_files_;  ///< contacts, lineage, field
-    jostle::TableColumns<jostle::ContactState> contact_columns_;
     jostle::TableColumns<jostle::LineageState> lineage_columns_;
 };

@@ -5,6 +5,9 @@
 #include "jostle/disk/checksum.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/run_files/version.hpp"
+#include "jostle/scene/scene_flow.hpp"
+#include "jostle/scene/scene_walls.hpp"
+#include "jostle/scene/schedule.hpp"
 #include "run_record.hpp"
 
 using namespace jostle;
@@ -26,14 +29,26 @@ std::vector<std::string> hosts_of(const Ranks& ranks) {
 
 Together::Together(const Ranks& ranks) : ranks_(ranks), hosts_(hosts_of(ranks)) {}
 
-void Together::require_ready(const Scene& scene, const Simulation& simulation) const {
+void Together::require_ready(const Scene& scene) const {
     if (ranks_.alone()) return;
-    if (scene.output.contacts)
-        throw InputError({.key = "output.contacts",
-                          .value = "true",
-                          .problem = "the table of contacts is not ready for several ranks",
-                          .suggestion = "Run it on one, or without it"});
-    simulation.require_ready_for_ranks();
+    const auto refuse_if = [](bool is_asked_for, const char* key, const char* what) {
+        if (is_asked_for)
+            throw InputError({.key = key,
+                              .problem = std::string(what) + " not ready for several ranks",
+                              .suggestion = "Start the run without a launcher, or without the key"});
+    };
+    refuse_if(scene.growth.rate > 0.0, "growth.rate", "cells that grow are");
+    refuse_if(!scene.springs.file.empty(), "springs.file", "springs are");
+    refuse_if(has_schedule(scene), "schedule", "schedules are");
+    refuse_if(scene.pressure.external.has_value(), "pressure.external", "a pressure that is given is");
+    refuse_if(has_flow(scene), "flow", "flows are");
+    refuse_if(scene_walls(scene).any(), "box.walls", "walls are");
+    refuse_if(!scene.rods.fixed.empty(), "rods.fixed", "fixed rods are");
+    refuse_if(scene.mobility.model == MobilityModel::hydrodynamic, "mobility.model", "rods that a fluid couples are");
+    refuse_if(scene.contact.model == ContactModel::wca, "contact.model", "soft rods are");
+    refuse_if(scene.solver.warm_start == WarmStarts::always, "solver.warm_start", "steps that begin warm are");
+    refuse_if(scene.solver.method != SolverMethod::automatic && scene.solver.method != SolverMethod::projected_sor,
+              "solver.method", "solvers for comparison are");
 }
 
 void Together::begin(const RunScene& scene, const Simulation& simulation, const StepSums& sums) {

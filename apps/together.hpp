@@ -25,8 +25,8 @@ public:
     /// Names of their machines, each once.
     const std::vector<std::string>& hosts() const { return hosts_; }
 
-    /// For the first: refuses what several ranks cannot do. Errors: InputError.
-    void require_ready(const jostle::Scene& scene, const jostle::Simulation& simulation) const;
+    /// For the first: refuses what several ranks cannot do, as far as the scene tells. Errors: InputError.
+    void require_ready(const jostle::Scene& scene) const;
     /// For the first: the others begin, too.
     void begin(const RunScene& scene, const jostle::Simulation& simulation, const jostle::StepSums& sums);
     bool have_begun() const { return have_begun_; }

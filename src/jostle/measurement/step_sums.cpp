@@ -55,12 +55,7 @@ struct Swimmer {
 /// Of ranks whose ids follow each other, all for rank 0: lists one after the other, single numbers as they are.
 NamedNumbers at_first_rank(NamedNumbers numbers, const Ranks& ranks) {
     if (ranks.alone()) return numbers;
-    for (const char* name : {"id", "newer", "older"}) {
-        std::vector<std::vector<double>> to(static_cast<std::size_t>(ranks.count()));
-        to[0] = std::move(numbers[name]);
-        numbers[name].clear();
-        for (const auto& part : ranks.deal(to)) numbers[name].insert(numbers[name].end(), part.begin(), part.end());
-    }
+    for (const char* name : {"id", "newer", "older"}) numbers[name] = ranks.gather_at_first(numbers[name]);
     return numbers;
 }
 
@@ -106,7 +101,20 @@ void StepSums::add(const StepReport& report, const Simulation& simulation) {
             if (event.kind == LineageEvent::Kind::birth) divisions.push_back({event.mother, event.id});
         active_stress->divide(simulation.rods(), simulation.box(), divisions);
     }
-    if (field) field->add(simulation.collision_moments(), simulation.rods(), simulation.settings().kT);
+    if (field) add_to_field(simulation);
+}
+
+/// Places are added up in the order of ids, and so by one rank.
+void StepSums::add_to_field(const Simulation& simulation) {
+    const Domain& domain = simulation.domain();
+    const double temperature = simulation.settings().kT;
+    if (!domain.is_shared()) {
+        field->add(simulation.collision_moments(), simulation.rods(), temperature);
+        return;
+    }
+    const CollisionMoments moments = at_first_rank(simulation.collision_moments(), domain.ranks());
+    const Rods all = domain.at_first_rank(simulation.rods());
+    if (domain.ranks().rank() == 0) field->add(moments, all, temperature);
 }
 
 void StepSums::look_at_swimmers(const Scene& scene, const Simulation& simulation) {

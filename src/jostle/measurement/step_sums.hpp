@@ -35,9 +35,9 @@ struct StepSums {
     double run_max_overlap = 0.0;
     // of swimmers
     std::optional<ActiveStress> active_stress;  ///< of several ranks each has that of ids that are at home there
-    Mat3 active_virial;  ///< V times it, at the step of the row
+    Mat3 active_virial;                         ///< V times it, at the step of the row
     // since the last field
-    std::optional<StressField> field;
+    std::optional<StressField> field;  ///< of several ranks the first one's
 
     /// Adds a step that was just made.
     void add(const StepReport& report, const Simulation& simulation);
@@ -56,6 +56,7 @@ struct StepSums {
 
 private:
     void add(const StepReport& report);
+    void add_to_field(const Simulation& simulation);
     void stretch(const StepReport& report, const Box& box);
 };
 

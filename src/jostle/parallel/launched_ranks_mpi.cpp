@@ -113,9 +113,8 @@ public:
         auto bytes = static_cast<std::int64_t>(message.size());
         MPI_Bcast(&bytes, 1, MPI_INT64_T, 0, MPI_COMM_WORLD);
         message.resize(static_cast<std::size_t>(bytes));
-        for_each_piece(std::span(message), [](std::byte* place, int piece) {
-            MPI_Bcast(place, piece, MPI_BYTE, 0, MPI_COMM_WORLD);
-        });
+        for_each_piece(std::span(message),
+                       [](std::byte* place, int piece) { MPI_Bcast(place, piece, MPI_BYTE, 0, MPI_COMM_WORLD); });
         return message;
     }
 

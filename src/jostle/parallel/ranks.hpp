@@ -116,6 +116,17 @@ public:
         return all;
     }
 
+    /// The items of all ranks, those of one after those of the other, for rank 0; none for the others.
+    template <class T>
+    std::vector<T> gather_at_first(const std::vector<T>& here) const {
+        if (alone()) return here;
+        std::vector<std::vector<T>> to(static_cast<std::size_t>(count()));
+        to[0] = here;
+        std::vector<T> all;
+        for (const auto& of_rank : deal(to)) all.insert(all.end(), of_rank.begin(), of_rank.end());
+        return all;
+    }
+
     /// Not for one alone.
     std::unique_ptr<Exchange> exchange(std::vector<Exchange::Peer> peers) const {
         return link_->exchange(std::move(peers));
