@@ -27,7 +27,7 @@ SCENES = {
     "polydisperse": changed(CROWD, rods={"length_deviation": 0.5, "diameter_deviation": 0.1}),
     "spheres": changed(CROWD, rods={"length": 0.0}, time={"step": 0.003, "production": 0.09}),
     "long": changed(CROWD, box={"volume_fraction": 0.1}, rods={"count": 60, "length": 20.0}),
-    "few": changed(CROWD, rods={"count": 3}),
+    "few": changed(CROWD, box={"volume_fraction": 0.15}, rods={"count": 3, "start": "random"}),
     "plane": changed(CROWD, box={"volume_fraction": None, "area_fraction": 0.3, "dimensions": 2}),
     "pulled": changed(CROWD, forces={"on_rods": [1.0, 0.0, 0.0], "drift": True, "alignment_energy": 2.0}),
     "swimmers": changed(CROWD, motion={"self_propulsion": 1.0, "self_propulsion_deviation": 0.3, "tumble_rate": 2.0,
