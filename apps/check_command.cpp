@@ -102,6 +102,9 @@ void print_swimming(const Scene& scene, const MobilityOperator& mobility, const 
         print("tumble turns ends per step",
               fmt::format("{:.3g} D at most", 0.5 * turn * rods.length[0] / rods.diameter[0]));
     }
+    if (stirs(scene))
+        print("force dipole", with_unit(swimming.force_dipole, scene, dimension::energy) +
+                                  (swimming.force_dipole > 0.0 ? ": pushers" : ": pullers"));
     const double lag = active_stress_lag(scene, mobility, rods.size());
     const bool too_short = lag > scene.time.equilibration.value_or(0.0) + scene.time.production;
     print("active stress lag", with_unit(lag, scene, dimension::time) +

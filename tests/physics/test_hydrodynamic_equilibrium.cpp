@@ -81,7 +81,7 @@ Average alignment_in_trap(bool with_drift, int steps) {
         mobility->apply(forces, u);
         mobility->add_square_root({20261123, static_cast<std::uint64_t>(step), Stream::brownian, 0},
                                   std::sqrt(2.0 * kT / time_step), u);
-        if (with_drift) mobility->add_drift(kT, u);
+        if (with_drift) mobility->add_axial_flow({.kT = kT, .dipole = {}}, u);
         for (std::size_t i = 0; i < 2; ++i) {
             rods.centre[i] += time_step * u.linear[i];
             rods.axis[i] = rotated(rods.axis[i], time_step * u.angular[i]);

@@ -1,5 +1,6 @@
 #include "jostle/contact_problem/contact_solver.hpp"
 
+#include "jostle/contact_problem/near_first.hpp"
 #include "jostle/contact_problem/projected_sor.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/lcp/adaptive_bb.hpp"
@@ -50,7 +51,10 @@ private:
 
 std::unique_ptr<ContactSolver> make_contact_solver(const ContactProblem& problem, SolverMethod method,
                                                    const LcpSettings& settings) {
-    const bool couples_all = problem.matrix().couples_rods() || problem.matrix().opens_box();
+    const bool couples_rods = problem.matrix().couples_rods(), opens_box = problem.matrix().opens_box();
+    if (method == SolverMethod::automatic && couples_rods && !opens_box && problem.matrix().mobility().among({}))
+        return std::make_unique<NearFirst>(problem, settings);
+    const bool couples_all = couples_rods || opens_box;
     if (method == SolverMethod::automatic)
         method = couples_all ? SolverMethod::adaptive_bb : SolverMethod::projected_sor;
     if (method != SolverMethod::projected_sor) return std::make_unique<LcpContactSolver>(problem, method, settings);

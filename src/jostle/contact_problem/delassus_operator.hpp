@@ -34,6 +34,7 @@ public:
 
     std::span<const MobileRod> rods() const { return rods_; }  ///< (n) those with contacts
     bool couples_rods() const { return mobility_.couples_rods(); }
+    const MobilityOperator& mobility() const { return mobility_; }
     bool opens_box() const { return box_.mobility > 0.0; }
 
     /// The rate of the box: m w.gamma.

@@ -288,6 +288,10 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
         summary["stress_torques"] =
             tensor_entry(window_columns(series, first, torque_stress_column_names), stress_unit);
     if (swims(scene)) summarise_active_stress(series, first, stress_unit, summary);
+    if (stirs(scene))
+        for (const auto& [name, columns] : {std::pair{"stress_dipoles", dipole_stress_column_names},
+                                            std::pair{"stress_thermal", thermal_stress_column_names}})
+            summary[name] = tensor_entry(symmetric_columns(series, first, columns), stress_unit);
     if (flows(scene))
         summary["flow"] = flow_entry(scene, series, first, stress);
     else if (thermal)

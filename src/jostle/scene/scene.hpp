@@ -90,6 +90,7 @@ struct Scene {
         double tumble_rate = 0.0;
         std::optional<double> tumble_time;  // how long a tumble takes; "auto" (empty): 0.1/tumble_rate
         double reversal_rate = 0.0;
+        double force_dipole = 0.0;  // of each swimmer in the fluid, an energy: > 0 pushers, < 0 pullers
         bool operator==(const MotionTable&) const = default;
     } motion;
 

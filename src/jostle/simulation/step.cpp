@@ -62,7 +62,10 @@ std::optional<StepReport> Simulation::attempt() {
     report.step = state_.clock.step;
     report.time = state_.clock.time;
     PhaseTimer timer(report);
-    threads_.begin_step(state_.rods.size());
+    if (domain_.is_shared())  // whose steps take as long as those of the others
+        parallel::suit_thread_count(parallel::worthwhile_thread_count(state_.rods.size()));
+    else
+        threads_.begin_step(state_.rods.size());
     renumber();
     const BoxColumn opening = opens_box() ? opening_of(state_.box, *settings_.pressure) : BoxColumn{};
     Squeezing squeezing(state_, edges_of_step(), search_);
@@ -114,7 +117,7 @@ std::optional<StepReport> Simulation::attempt() {
     lengthening.keep();
     advance(report);  // 5
     timer.finish(StepPhase::advance);
-    threads_.end_step();
+    if (!domain_.is_shared()) threads_.end_step();
     return report;
 }
 
