@@ -31,7 +31,7 @@ class BuildByCmake(build_ext):
         build = BASE / "cmake"
         by_ninja = ["-G", "Ninja"] if shutil.which("ninja") else []
         subprocess.run(["cmake", "-S", ROOT, "-B", build, *by_ninja, "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
-                        "-DJOSTLE_TESTS=OFF", "-DJOSTLE_PYTHON_MODULE=REQUIRED", f"-DPython3_EXECUTABLE={sys.executable}",
+                        "-DJOSTLE_TESTS=OFF", "-DJOSTLE_MPI=OFF", "-DJOSTLE_PYTHON_MODULE=REQUIRED", f"-DPython3_EXECUTABLE={sys.executable}",
                         *where_pybind11_is()], check=True)
         subprocess.run(["cmake", "--build", build, "--parallel", "--target", "_jostle", "jostle"], check=True)
         return build

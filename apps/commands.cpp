@@ -70,6 +70,8 @@ Command add_run_command(CLI::App& app, int argc, char** argv) {
     run->add_flag("--fresh", options->fresh, "start anew; an earlier run in the folder is moved aside, not deleted");
     CLI::Option* quiet = run->add_flag("--quiet", options->quiet, "print errors only");
     run->add_flag("--json", options->json, "print the summary as JSON, nothing else")->excludes(quiet);
+    run->add_flag("--alone", options->alone,
+                  "one process makes this run, though a launcher (mpirun, srun) has started several");
     run->add_flag("--spin-waiting", *spin_waiting,
                   "let threads that wait keep their processors for milliseconds, where nothing else wants them");
     run->footer(app.get_footer());

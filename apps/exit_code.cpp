@@ -8,9 +8,9 @@
 #include "jostle/error/input_error.hpp"
 #include "standard_streams.hpp"
 
-int exit_status(const std::function<ExitCode()>& command) {
-    const auto fail = [](ExitCode code, const char* what) {
-        std::fprintf(stderr, "jostle: %s\n", what);
+int exit_status(const std::function<ExitCode()>& command, const std::string& who) {
+    const auto fail = [&who](ExitCode code, const char* what) {
+        std::fprintf(stderr, "jostle: %s%s\n", who.c_str(), what);
         return static_cast<int>(code);
     };
     try {

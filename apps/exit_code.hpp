@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 /// What the command's exit status means; told in README and `jostle --help`.
 enum class ExitCode : int {
@@ -14,4 +15,5 @@ enum class ExitCode : int {
 
 /// Runs a command, tells any error on standard error in one line, and returns the exit status. A command that is done
 /// but whose output did not reach its place ends as after a full disk.
-int exit_status(const std::function<ExitCode()>& command);
+/// `who`: before the message.
+int exit_status(const std::function<ExitCode()>& command, const std::string& who = {});

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "jostle/disk/durable_file.hpp"
+#include "jostle/parallel/launched_ranks.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/scene_file/rods_of_scene.hpp"
 #include "jostle/scene_file/same_scene.hpp"
@@ -14,6 +15,7 @@
 #include "jostle/scene_file/scene_settings.hpp"
 #include "jostle/scene_file/scene_writer.hpp"
 #include "jostle/setup/assemble.hpp"
+#include "launched_run.hpp"
 #include "run.hpp"
 #include "start_entry.hpp"
 #include "start_watch.hpp"
@@ -73,8 +75,9 @@ std::string freed(const std::string& folder, bool quiet) {
     return place;
 }
 
-ExitCode start_run(const RunOptions& options, const RunScene& scene, std::string folder) {
-    require_place_for_run(folder);  // before the time that a dense start takes
+ExitCode start_run(const RunOptions& options, const RunScene& scene, std::string folder, Together& together) {
+    together.require_ready(scene.scene);  // before the time that a dense start takes
+    require_place_for_run(folder);
     const Scene::RodsTable& rods = scene.scene.rods;
     const bool draws = rods.start == StartKind::random || rods.start == StartKind::aligned;
     if (draws && rods.count >= many_to_place && !options.quiet && !options.json)
@@ -86,18 +89,21 @@ ExitCode start_run(const RunOptions& options, const RunScene& scene, std::string
     const nlohmann::ordered_json start = start_entry(scene.scene, beginning);
     if (!options.quiet && !options.json) std::fputs(start_text(start, watch.seconds()).c_str(), stderr);
     Simulation simulation = assemble(scene.scene, std::move(beginning.state));
+    if (!together.ranks().alone()) simulation.require_ready_for_ranks();
     if (options.fresh) folder = freed(folder, options.quiet);
     const RunDirectory directory(folder);
     write_scene(scene, directory);
     write_fixed_rods(simulation.box(), directory);
     Measurement measurement(scene.scene, simulation);
     RunFiles files(directory, scene.scene, scene.resolved, simulation, measurement.sums());
-    return Run(options, scene, simulation, measurement, files, directory, start).go();
+    together.begin(scene, simulation, measurement.sums());
+    return Run(options, scene, simulation, measurement, together, &files, &directory, start).go();
 }
 
 ExitCode resume_run(const RunOptions& options, const RunScene& scene, const RunDirectory& directory,
-                    Checkpoint checkpoint) {
+                    Checkpoint checkpoint, Together& together) {
     require_same_scene(checkpoint, scene.scene, directory.path());
+    together.require_ready(scene.scene);
     require_same_springs(checkpoint,
                          in_scene_file(scene.path,
                                        [&] {
@@ -109,17 +115,19 @@ ExitCode resume_run(const RunOptions& options, const RunScene& scene, const RunD
                             scene.scene.rods.fixed);
     StepSums sums = StepSums::from_named(std::move(checkpoint.sums), scene.scene, checkpoint.state.box);
     Simulation simulation = assemble(scene.scene, std::move(checkpoint.state));
-    RunFiles files(directory, scene.scene, scene.resolved, simulation, checkpoint.files);
+    if (!together.ranks().alone()) simulation.require_ready_for_ranks();
+    RunFiles files(directory, scene.scene, simulation, checkpoint.files);
     write_scene(scene, directory);  // it may have another end, and what was there may be damaged
     write_fixed_rods(simulation.box(), directory);
     if (!options.quiet && !options.json)
         std::fprintf(stderr, "jostle: going on from step %llu\n",
                      static_cast<unsigned long long>(checkpoint.state.clock.step));
     Measurement measurement(scene.scene, simulation, std::move(sums), read_series(directory.file("series.csv")));
-    return Run(options, scene, simulation, measurement, files, directory).go();
+    together.begin(scene, simulation, measurement.sums());
+    return Run(options, scene, simulation, measurement, together, &files, &directory).go();
 }
 
-ExitCode start_or_resume(const RunOptions& options, const std::vector<Setting>& settings) {
+ExitCode start_or_resume(const RunOptions& options, const std::vector<Setting>& settings, Together& together) {
     const RunScene scene = read_run_scene(options.scene, settings);
     if (has_sweep(scene.text) && !options.quiet && !options.json)
         std::fputs("jostle: one run of the scene; what its [sweep] asks for is run by `jostle sweep`\n", stderr);
@@ -127,24 +135,31 @@ ExitCode start_or_resume(const RunOptions& options, const std::vector<Setting>& 
     if (!options.fresh && is_run_directory(folder)) {
         const RunDirectory directory(folder);
         if (auto checkpoint = latest_checkpoint(directory.path()))
-            return resume_run(options, scene, directory, std::move(*checkpoint));
+            return resume_run(options, scene, directory, std::move(*checkpoint), together);
         if (has_rows(directory.file("series.csv")))
             throw refused_file(folder, "this run has results but no checkpoint to go on from",
                                "Start anew with --fresh: the old run is then moved aside, not deleted");
     }
-    return start_run(options, scene, folder);
+    return start_run(options, scene, folder, together);
+}
+
+ExitCode make_run(const RunOptions& options, Together& together) {
+    if (options.threads) parallel::set_thread_count(*options.threads, "--threads");
+    parallel::thread_count();  // looks at OMP_NUM_THREADS before anything is written
+    const std::vector<Setting> settings = parse_settings(options.settings);
+    try {
+        return in_settings(options.scene, settings, [&] { return start_or_resume(options, settings, together); });
+    } catch (const StartOutOfTime& late) {
+        std::fprintf(stderr, "jostle: %s\n", late.what());
+        return ExitCode::bad_input;  // the same again would come no farther
+    }
 }
 
 }  // namespace
 
 ExitCode run_command(const RunOptions& options) {
-    if (options.threads) parallel::set_thread_count(*options.threads, "--threads");
-    parallel::thread_count();  // looks at OMP_NUM_THREADS before anything is written
-    const std::vector<Setting> settings = parse_settings(options.settings);
-    try {
-        return in_settings(options.scene, settings, [&] { return start_or_resume(options, settings); });
-    } catch (const StartOutOfTime& late) {
-        std::fprintf(stderr, "jostle: %s\n", late.what());
-        return ExitCode::bad_input;  // the same again would come no farther
-    }
+    if (!options.alone && launch_in_environment().is_of_several())
+        return launched_run(options, [&](Together& together) { return make_run(options, together); });
+    Together alone;
+    return make_run(options, alone);
 }

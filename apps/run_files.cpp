@@ -65,8 +65,9 @@ SeriesFile resumed_series(const RunDirectory& directory, const Scene& scene, con
 const Mat3 unknown = std::numeric_limits<double>::quiet_NaN() * Mat3{{1, 1, 1, 1, 1, 1, 1, 1, 1}};
 
 /// The stress of every rod (N) in the last step; not a number for a rod that was not in it.
-std::vector<Mat3> stress_of_last_step(const Simulation& simulation, const std::vector<std::uint64_t>& ids) {
-    std::vector<Mat3> stress = stress_per_rod(simulation.collision_moments(), ids);
+std::vector<Mat3> stress_of_last_step(const Simulation& simulation, const CollisionMoments& moments,
+                                      const std::vector<std::uint64_t>& ids) {
+    std::vector<Mat3> stress = stress_per_rod(moments, ids);
     for (const LineageEvent& event : simulation.lineage()) {
         const auto found = std::lower_bound(ids.begin(), ids.end(), event.id);
         if (event.kind == LineageEvent::Kind::birth && found != ids.end() && *found == event.id)
@@ -89,25 +90,21 @@ std::vector<DescribedTable> described_tables(const Scene& scene) {
     return tables;
 }
 
-RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::string resolved_scene,
+RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, const std::string& resolved_scene,
                    const Simulation& simulation, const StepSums& sums)
     : directory_(directory),
       scene_(scene),
-      resolved_scene_(std::move(resolved_scene)),
       series_file_(SeriesFile::create(directory.file("series.csv"), series_columns(scene).about())),
-      contact_columns_(contact_columns(scene)),
       lineage_columns_(lineage_columns(scene)) {
     open_others(simulation, {});
-    write_checkpoint(simulation, sums);
+    write_checkpoint(checkpoint_of(simulation, sums, resolved_scene));
 }
 
-RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, std::string resolved_scene,
-                   const Simulation& simulation, const FilePositions& positions)
+RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, const Simulation& simulation,
+                   const FilePositions& positions)
     : directory_(directory),
       scene_(scene),
-      resolved_scene_(std::move(resolved_scene)),
       series_file_(resumed_series(directory, scene, positions)),
-      contact_columns_(contact_columns(scene)),
       lineage_columns_(lineage_columns(scene)) {
     open_others(simulation, positions);
 }
@@ -136,10 +133,10 @@ void RunFiles::append_row(const std::vector<double>& row) {
     series_file_.append(row);
 }
 
-void RunFiles::append_frame(const Simulation& simulation) {
-    const Rods rods = in_order_of_ids(simulation.rods());
-    append_frame(simulation, rods,
-                 scene_.output.stress_per_rod ? stress_of_last_step(simulation, rods.id) : std::vector<Mat3>{});
+void RunFiles::append_frame(const Simulation& simulation, const Rods& rods, const CollisionMoments& moments) {
+    append_frame(
+        simulation, rods,
+        scene_.output.stress_per_rod ? stress_of_last_step(simulation, moments, rods.id) : std::vector<Mat3>{});
 }
 
 /// No step leads to it.
@@ -152,8 +149,8 @@ void RunFiles::append_frame(const Simulation& simulation, const Rods& rods, cons
     journal_->append(simulation.clock().step, simulation.clock().time, simulation.box(), rods, stress);
 }
 
-void RunFiles::append_contacts(const Simulation& simulation) {
-    append(contacts_table, contact_rows(contact_columns_, simulation));
+void RunFiles::append_contacts(const TableRows& rows) {
+    append(contacts_table, rows);
 }
 
 void RunFiles::append_lineage(const Simulation& simulation) {
@@ -168,8 +165,7 @@ void RunFiles::append(std::size_t table, const TableRows& rows) {
     for (const std::vector<double>& row : rows) side_files_[table]->append(row);
 }
 
-void RunFiles::write_checkpoint(const Simulation& simulation, const StepSums& sums) {
-    Checkpoint checkpoint = checkpoint_of(simulation, sums, resolved_scene_);
+void RunFiles::write_checkpoint(Checkpoint checkpoint) {
     const auto keep = [&](const std::string& name, auto& file) {
         file.sync();
         checkpoint.files[name] = {file.bytes(), file.hash()};

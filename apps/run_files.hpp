@@ -29,23 +29,25 @@ std::vector<DescribedTable> described_tables(const jostle::Scene& scene);
 class RunFiles {
 public:
     /// Files of a new run; `simulation` stands at its beginning.
-    RunFiles(const jostle::RunDirectory& directory, const jostle::Scene& scene, std::string resolved_scene,
+    RunFiles(const jostle::RunDirectory& directory, const jostle::Scene& scene, const std::string& resolved_scene,
              const jostle::Simulation& simulation, const jostle::StepSums& sums);
     /// Files of a run that goes on from a checkpoint, where `simulation` stands. Nothing is cut before all files were
     /// found to be sound.
-    RunFiles(const jostle::RunDirectory& directory, const jostle::Scene& scene, std::string resolved_scene,
-             const jostle::Simulation& simulation, const jostle::FilePositions& positions);
+    RunFiles(const jostle::RunDirectory& directory, const jostle::Scene& scene, const jostle::Simulation& simulation,
+             const jostle::FilePositions& positions);
 
     void append_row(const std::vector<double>& row);
-    void append_frame(const jostle::Simulation& simulation);
-    /// The contacts with a force in the last step.
-    void append_contacts(const jostle::Simulation& simulation);
+    /// `rods`: of all ranks, in the order of ids; `moments` of the last step: of all, too, if the stress of each rod is
+    /// asked for.
+    void append_frame(const jostle::Simulation& simulation, const jostle::Rods& rods,
+                      const jostle::CollisionMoments& moments);
+    void append_contacts(const jostle::TableRows& rows);
     void append_field(const jostle::TableRows& rows);
     /// Who was born and who died after the last step.
     void append_lineage(const jostle::Simulation& simulation);
 
     /// Makes everything so far durable, and the point to go on from.
-    void write_checkpoint(const jostle::Simulation& simulation, const jostle::StepSums& sums);
+    void write_checkpoint(jostle::Checkpoint checkpoint);
 
     bool has_trajectory() const { return journal_.has_value(); }
 
@@ -58,10 +60,8 @@ private:
 
     const jostle::RunDirectory& directory_;
     const jostle::Scene& scene_;
-    std::string resolved_scene_;
     jostle::SeriesFile series_file_;
     std::optional<jostle::TrajectoryJournal> journal_;
     std::array<std::optional<jostle::SeriesFile>, 3> side_files_;  ///< contacts, lineage, field
-    jostle::TableColumns<jostle::ContactState> contact_columns_;
     jostle::TableColumns<jostle::LineageState> lineage_columns_;
 };

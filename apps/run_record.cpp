@@ -63,11 +63,14 @@ std::string host_name() {
     return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
-RunRecord::RunRecord(const jostle::RunDirectory& directory, const RunOptions& options, Json start)
+RunRecord::RunRecord(const jostle::RunDirectory& directory, const RunOptions& options, const Together& together,
+                     Json start)
     : directory_(directory),
       earlier_sessions_(sessions_of(directory.file("run.json"))),
       start_(start.is_null() ? start_of(directory.file("run.json")) : std::move(start)),
       command_line_(options.command_line),
+      ranks_(together.ranks().count()),
+      hosts_(together.hosts()),
       started_(utc_now()),
       began_(seconds_now()) {}
 
@@ -88,10 +91,12 @@ void RunRecord::write(const jostle::Simulation& simulation, const std::string& e
                                   {"command", command_line_},
                                   {"host", host_name()},
                                   {"processor", processor()},
+                                  {"ranks", ranks_},
                                   {"threads", jostle::parallel::thread_count()},
                                   {"first_step", first_step_},
                                   {"last_step", simulation.clock().step},
                                   {"wall_seconds", seconds_now() - began_},
                                   {"exit_reason", exit_reason}});
+    if (ranks_ > 1) record["sessions"].back()["hosts"] = hosts_;
     jostle::replace_file(directory_.file("run.json"), sealed_json(record));
 }

@@ -18,7 +18,6 @@ bool any_is_set(std::initializer_list<const char*> names) {
 
 void limit_spin_waiting(char** words) {
     if (any_is_set({"OMP_WAIT_POLICY", "GOMP_SPINCOUNT"})) return;
-    if (any_is_set({"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"})) return;
     ::setenv("GOMP_SPINCOUNT", "10000", 1);
     std::error_code unknown;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown);

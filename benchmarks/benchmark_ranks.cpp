@@ -68,6 +68,12 @@ public:
         ranks_.add_up(numbers);
     }
     std::vector<Bytes> deal(const std::vector<Bytes>& to) override { return ranks_.deal(to); }
+    Bytes of_first(Bytes message) override {
+        const std::string_view text(reinterpret_cast<const char*>(message.data()), message.size());
+        const std::string told = ranks_.of_first(text);
+        const auto* const begin = reinterpret_cast<const std::byte*>(told.data());
+        return {begin, begin + told.size()};
+    }
     std::unique_ptr<Exchange> exchange(std::vector<Exchange::Peer> peers) override {
         return std::make_unique<CountedExchange>(ranks_.exchange(std::move(peers)), traffic_);
     }

@@ -54,9 +54,9 @@ LIMITED = {"GOMP_SPINCOUNT": "10000"}
 
 @pytest.mark.parametrize("environment, options, expected", [
     ({}, [], LIMITED), ({"OMP_WAIT_POLICY": "active"}, [], {"OMP_WAIT_POLICY": "active"}), ({"GOMP_SPINCOUNT": "7"}, [], {"GOMP_SPINCOUNT": "7"}),
-    ({}, ["--spin-waiting"], {}), ({"OMPI_COMM_WORLD_RANK": "0"}, [], {})])
+    ({}, ["--spin-waiting"], {}), ({"OMPI_COMM_WORLD_RANK": "0"}, [], LIMITED)])
 def test_threads_wait_briefly_unless_told_otherwise(tmp_path, environment, options, expected):
-    """The environment, an option, or a launcher of MPI, whose processes begin once only."""
+    """By the environment, or an option; ranks of MPI, too, wait briefly."""
     write_scene(tmp_path, with_steps(changed(SCENES["spheres"], rods={"count": 100}), 10**6))
     process = start(tmp_path, *options, env={**environment_without("OMP_WAIT_POLICY", "GOMP_SPINCOUNT"), **environment})
     wait_until(lambda: rows_of(tmp_path / "run/series.csv") > 0, process)

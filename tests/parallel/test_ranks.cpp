@@ -235,5 +235,4 @@ TEST_CASE("what is not ready for several ranks is refused") {
     CHECK(refused([](Scene& s) { s.contact.model = ContactModel::wca; }, "contact.model"));
     CHECK(refused([](Scene& s) { s.growth.rate = 1.0; }, "growth"));
     CHECK(refused([](Scene& s) { s.pressure.external = 1.0; }, "pressure"));
-    CHECK(refused([](Scene& s) { s.output.stress_per_rod = true; }, "output"));
 }

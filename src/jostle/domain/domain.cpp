@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "jostle/rods/space_filling_order.hpp"
@@ -12,6 +13,8 @@ namespace {
 
 /// Cuts are moved where a rank has more rods than this many times the mean.
 constexpr double uneven = 1.1;
+/// So many ids are in a slice of the rods that rank 0 gathers.
+constexpr std::uint64_t slice = std::uint64_t{1} << 20;
 
 /// All that a rod carries.
 struct CarriedRod {
@@ -211,6 +214,27 @@ Rods Domain::all_rods(const Rods& rods) const {
     for (const auto& of_rank : ranks_.deal(std::vector(static_cast<std::size_t>(ranks_.count()), own)))
         for (const CarriedRod& rod : of_rank) append(all, rod, carries);
     return all;
+}
+
+Rods Domain::at_first_rank(const Rods& rods) const {
+    if (!is_shared()) return in_order_of_ids(rods);
+    const Carries carries = carried_by_any(ranks_, rods);
+    std::vector<std::uint32_t> own(owned_);
+    std::iota(own.begin(), own.end(), 0U);
+    std::sort(own.begin(), own.end(), [&](std::uint32_t a, std::uint32_t b) { return rods.id[a] < rods.id[b]; });
+    Rods all;
+    all.founder_bits = rods.founder_bits;
+    std::size_t sent = 0;
+    for (std::uint64_t end = slice;; end += slice) {
+        std::vector<std::vector<CarriedRod>> to(static_cast<std::size_t>(ranks_.count()));
+        for (; sent < own.size() && rods.id[own[sent]] < end; ++sent) to[0].push_back(carried(rods, own[sent]));
+        const bool are_more = ranks_.any(sent < own.size());
+        std::vector<CarriedRod> arrived;
+        for (const auto& of_rank : ranks_.deal(to)) arrived.insert(arrived.end(), of_rank.begin(), of_rank.end());
+        std::sort(arrived.begin(), arrived.end(), [](const CarriedRod& a, const CarriedRod& b) { return a.id < b.id; });
+        for (const CarriedRod& rod : arrived) append(all, rod, carries);
+        if (!are_more) return all;
+    }
 }
 
 bool Domain::is_uneven(const Rods& rods) const {

@@ -53,6 +53,10 @@ public:
     /// The rods of all ranks, in any order.
     Rods all_rods(const Rods& rods) const;
 
+    /// The rods of all ranks in the order of ids, for rank 0; none for the others. They come in slices, so that rank 0
+    /// needs no more memory than for the rods and one slice.
+    Rods at_first_rank(const Rods& rods) const;
+
     /// Whether own rods are so unevenly shared out that cuts should be moved.
     bool is_uneven(const Rods& rods) const;
 

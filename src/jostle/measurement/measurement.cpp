@@ -42,7 +42,7 @@ Measurement::Measurement(const Scene& scene, const Simulation& simulation, StepS
 Due Measurement::add(const StepReport& report, const Simulation& simulation) {
     if (report.status != LcpStatus::converged) throw std::logic_error("a step that was not made cannot be measured");
     sums_.add(report, simulation);
-    if (simulation.rods().size() == 0) return {};
+    if (simulation.rods_in_all() == 0) return {};
     const auto due = [step = simulation.clock().step](std::uint64_t every) { return every > 0 && step % every == 0; };
     const std::optional<double>& limit = scene_.pressure.limit_volume_fraction;
     if (limit && total_volume(simulation.rods()) >= *limit * simulation.box().volume()) is_complete_ = true;

@@ -4,7 +4,7 @@
 
 #include "jostle/measurement/flow_columns.hpp"
 #include "jostle/measurement/wall_columns.hpp"
-#include "jostle/parallel/parallel_for.hpp"
+#include "jostle/parallel/sum_over_ranks.hpp"
 #include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/scene_walls.hpp"
@@ -32,12 +32,11 @@ void add_state_columns(const Scene& scene, Series& series) {
     columns.push_back({{"time", unit_of(scene, dimension::time), "t", "simulated time", ""},
                        [](const RowState& row) { return row.simulation.clock().time; }});
     columns.push_back({{"N", "1", "N", "number of rods at this step", ""},
-                       [](const RowState& row) { return static_cast<double>(row.simulation.rods().size()); }});
+                       [](const RowState& row) { return static_cast<double>(row.simulation.rods_in_all()); }});
     const char* fraction = dimensions_of(scene) == 2 ? "area of the rods at this step over area of the box"
                                                      : "volume of the rods at this step over volume of the box";
-    columns.push_back({{"phi", "1", "phi", fraction, ""}, [](const RowState& row) {
-                           return total_volume(row.simulation.rods(), row.simulation.box().dimensions()) / row.volume;
-                       }});
+    columns.push_back(
+        {{"phi", "1", "phi", fraction, ""}, [](const RowState& row) { return row.rods_volume / row.volume; }});
 }
 
 void add_pressure_columns(const Scene& scene, Series& series) {
@@ -230,21 +229,48 @@ void add_convention_columns(const Scene& scene, Series& series) {
         [mean](const RowState& row, std::size_t k) { return mean(row.sums.centre_line_virial, row, k); });
 }
 
+/// Over the rods of all ranks.
+template <class T, class OfRod>
+T sum_over_rods(const Simulation& simulation, OfRod&& of_rod) {
+    const Domain& domain = simulation.domain();
+    return sum_over_ranks<T>(domain.ranks(), domain.owned_of(simulation.rods().size()), of_rod);
+}
+
+Mat3 orientation_virial(const Simulation& of) {
+    const Rods& rods = of.rods();
+    return sum_over_rods<Mat3>(of, [&, kT = of.settings().kT, dimensions = of.box().dimensions()](std::size_t i) {
+        return orientation_stress_of_rod(rods.axis[i], rods.length[i], rods.diameter[i], kT, dimensions);
+    });
+}
+
+NematicOrder order_of(const Simulation& of) {
+    const std::vector<Vec3>& axis = of.rods().axis;
+    const Mat3 sum = sum_over_rods<Mat3>(of, [&](std::size_t i) { return outer(axis[i], axis[i]); });
+    return nematic_order(sum, of.rods_in_all(), of.box().dimensions());
+}
+
+double volume_of_rods(const Simulation& of) {
+    const Rods& rods = of.rods();
+    return sum_over_rods<double>(of, [&, dimensions = of.box().dimensions()](std::size_t i) {
+        return rod_volume(rods.length[i], rods.diameter[i], dimensions);
+    });
+}
+
 }  // namespace
 
 RowState::RowState(const Simulation& of, const StepSums& since_last_row)
     : simulation(of),
       sums(since_last_row),
       volume(of.box().volume()),
+      rods_volume(volume_of_rods(of)),
       kT(sums.kT ? *sums.kT / sums.steps : of.settings().kT),
       density(sums.rods / sums.steps / volume),
-      stress(assembly_stress(
-          density, kT, volume,
-          {.collision = (1.0 / sums.steps) * sums.collision_virial,
-           .orientation = sum_of_orientation_stresses(of.rods(), of.settings().kT, of.box().dimensions()),
-           .springs = (1.0 / sums.steps) * sums.spring_virial},
-          of.box().dimensions())),
-      order(nematic_order(of.rods().axis, of.box().dimensions())) {
+      stress(assembly_stress(density, kT, volume,
+                             {.collision = (1.0 / sums.steps) * sums.collision_virial,
+                              .orientation = orientation_virial(of),
+                              .springs = (1.0 / sums.steps) * sums.spring_virial},
+                             of.box().dimensions())),
+      order(order_of(of)) {
     if (const auto& flow = of.settings().flow)
         flow_virial = sum_of_flow_stresses(of.rods(), *of.mobility().at(of.rods(), of.box()), *flow, of.clock(),
                                            of.settings().time_step);

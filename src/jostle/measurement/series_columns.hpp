@@ -15,12 +15,13 @@ namespace jostle {
 /// What the values of a row of the series are taken from: the state at the row's step, and the sums over the steps
 /// since the last row. What several columns share is found once.
 struct RowState {
-    /// Holds references. `sums.steps` > 0, and there are rods.
+    /// Holds references. `sums.steps` > 0, and there are rods. All ranks call it together.
     RowState(const Simulation& simulation, const StepSums& sums);
 
     const Simulation& simulation;
     const StepSums& sums;
     double volume;       ///< of the box at this step
+    double rods_volume;  ///< of all rods at this step; in two dimensions areas
     double kT;           ///< mean over the steps
     double density;      ///< rods per volume, mean over the steps: cells may have divided since the last row
     Stress stress;       ///< mean over the steps; the orientation stress at this step

@@ -2,7 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "jostle/scene/scene_walls.hpp"
 #include "jostle/scene/units.hpp"
@@ -20,6 +22,23 @@ double step_of(const Item& item) {
 template <class Item>
 double time_of(const Item& item) {
     return item.clock.time;
+}
+
+constexpr std::size_t column_of_id_i = 1, column_of_id_j = 2;
+
+/// Contacts of the same two rods are of one rank, and stay in the order that they have there.
+TableRows at_first_rank(TableRows rows, std::size_t columns, const Ranks& ranks) {
+    if (ranks.alone()) return rows;
+    std::vector<double> numbers;
+    for (const std::vector<double>& row : rows) numbers.insert(numbers.end(), row.begin(), row.end());
+    numbers = ranks.gather_at_first(numbers);
+    TableRows all;
+    for (auto row = numbers.begin(); row != numbers.end(); row += static_cast<std::ptrdiff_t>(columns))
+        all.emplace_back(row, row + static_cast<std::ptrdiff_t>(columns));
+    const auto ids = [](const std::vector<double>& row) { return std::pair(row[column_of_id_i], row[column_of_id_j]); };
+    std::stable_sort(all.begin(), all.end(),
+                     [&](const std::vector<double>& a, const std::vector<double>& b) { return ids(a) < ids(b); });
+    return all;
 }
 
 constexpr const char* number_of_steps = "number of steps done";
@@ -72,10 +91,12 @@ TableColumns<ContactState> contact_columns(const Scene& scene) {
 TableRows contact_rows(const TableColumns<ContactState>& columns, const Simulation& simulation) {
     TableRows rows;
     const auto& gamma = simulation.contact_solution().gamma;
-    for (const std::size_t l : order_of_ids(simulation.contacts(), simulation.contact_ids(), gamma))
-        rows.push_back(columns.row(
-            {simulation.clock(), contact_by_id(simulation, l), gamma[l], simulation.contacts().contact[l].gap}));
-    return rows;
+    for (const std::size_t l : order_of_ids(simulation.contacts(), simulation.contact_ids(), gamma)) {
+        const Contact& contact = simulation.contacts().contact[l];
+        if (!simulation.domain().owns(is_fixed(contact.i) ? contact.j : contact.i)) continue;  // another rank's
+        rows.push_back(columns.row({simulation.clock(), contact_by_id(simulation, l), gamma[l], contact.gap}));
+    }
+    return at_first_rank(std::move(rows), columns.columns.size(), simulation.domain().ranks());
 }
 
 TableColumns<LineageState> lineage_columns(const Scene& scene) {

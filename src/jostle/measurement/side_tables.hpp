@@ -20,7 +20,7 @@ struct ContactState {
     double force, gap;
 };
 TableColumns<ContactState> contact_columns(const Scene& scene);
-/// All of the last step.
+/// All of the last step. Of several ranks they are for rank 0, and all call it together.
 TableRows contact_rows(const TableColumns<ContactState>& columns, const Simulation& simulation);
 
 /// A birth or a death after the last step.

@@ -6,9 +6,9 @@
 #include <type_traits>
 #include <utility>
 
+#include "jostle/domain/homes.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/motion/self_propulsion.hpp"
-#include "jostle/rods/space_filling_order.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/schedule.hpp"
 #include "jostle/setup/assemble.hpp"
@@ -44,6 +44,20 @@ auto numbers_of(Sum& sum) {
         return std::span(&sum, 1);
     else
         return std::span(sum);
+}
+
+/// What the active stress has to know of a rod.
+struct Swimmer {
+    std::uint64_t id;
+    Vec3 centre, force;
+    Image image;
+};
+
+/// Of ranks whose ids follow each other, all for rank 0: lists one after the other, single numbers as they are.
+NamedNumbers at_first_rank(NamedNumbers numbers, const Ranks& ranks) {
+    if (ranks.alone()) return numbers;
+    for (const char* name : {"id", "newer", "older"}) numbers[name] = ranks.gather_at_first(numbers[name]);
+    return numbers;
 }
 
 }  // namespace
@@ -88,21 +102,56 @@ void StepSums::add(const StepReport& report, const Simulation& simulation) {
             if (event.kind == LineageEvent::Kind::birth) divisions.push_back({event.mother, event.id});
         active_stress->divide(simulation.rods(), simulation.box(), divisions);
     }
-    if (field) field->add(simulation.collision_moments(), simulation.rods(), simulation.settings().kT);
+    if (field) add_to_field(simulation);
+}
+
+/// Places are added up in the order of ids, and so by one rank.
+void StepSums::add_to_field(const Simulation& simulation) {
+    const Domain& domain = simulation.domain();
+    const double temperature = simulation.settings().kT;
+    if (!domain.is_shared()) {
+        field->add(simulation.collision_moments(), simulation.rods(), temperature);
+        return;
+    }
+    const CollisionMoments moments = at_first_rank(simulation.collision_moments(), domain.ranks());
+    const Rods all = domain.at_first_rank(simulation.rods());
+    if (domain.ranks().rank() == 0) field->add(moments, all, temperature);
 }
 
 void StepSums::look_at_swimmers(const Scene& scene, const Simulation& simulation) {
     if (!active_stress) return;
     const Rods& swimmers = simulation.rods();
+    const Domain& domain = simulation.domain();
     const StepContext context = {scene.seed, simulation.clock().step, simulation.settings().time_step};
     const auto mobility = simulation.mobility().at(swimmers, simulation.box());
     const Swimming now = swimming_of(scene_at(scene, simulation.clock().time));
     const SelfPropulsion swimming(now);
     const std::vector<Vec3> force = swimming.propulsion(swimmers, *mobility, context);
-    active_virial = active_stress->virial(swimmers, simulation.box(), force);
-    if (!stirs(scene)) return;
-    dipole_virial = sum_of_dipole_stresses(swimmers, swimming.stresslets(swimmers, context).dipole);
-    thermal_virial = sum_of_thermal_stresses(swimmers, simulation.settings().kT);
+    if (!domain.is_shared()) {
+        active_virial = active_stress->virial(swimmers, simulation.box(), force);
+        if (!stirs(scene)) return;
+        dipole_virial = sum_of_dipole_stresses(swimmers, swimming.stresslets(swimmers, context).dipole);
+        thermal_virial = sum_of_thermal_stresses(swimmers, simulation.settings().kT);
+        return;
+    }
+    std::vector<Swimmer> own;
+    for (std::size_t row = 0; row < domain.owned_of(swimmers.size()); ++row)
+        own.push_back({swimmers.id[row], swimmers.centre[row], force[row], swimmers.image[row]});
+    Rods at_home;
+    std::vector<Vec3> force_at_home;
+    for (const Swimmer& swimmer :
+         Homes(domain.ranks(), simulation.rods_in_all()).bring(std::span<const Swimmer>(own))) {
+        at_home.push_back(swimmer.id, swimmer.centre, {}, 0.0, 0.0);
+        at_home.image.back() = swimmer.image;
+        force_at_home.push_back(swimmer.force);
+    }
+    active_virial = active_stress->virial(at_home, simulation.box(), force_at_home, domain.ranks());
+}
+
+void StepSums::share(const Ranks& ranks) {
+    if (ranks.alone() || !active_stress) return;
+    const auto [begin, end] = Homes(ranks, active_stress->size()).range();
+    active_stress->keep(begin, end);
 }
 
 void StepSums::start_row() {
@@ -116,7 +165,7 @@ void StepSums::start_row() {
     *this = std::move(fresh);
 }
 
-NamedNumbers StepSums::to_named() const {
+NamedNumbers StepSums::to_named(const Ranks& ranks) const {
     NamedNumbers numbers;
     for_each_sum(*this, [&](const char* name, const auto& sum) {
         const std::span<const double> values = numbers_of(sum);
@@ -125,7 +174,7 @@ NamedNumbers StepSums::to_named() const {
     if (kT) numbers["kT"] = {*kT};
     if (torque_virial) numbers["torque_virial"].assign(torque_virial->m.begin(), torque_virial->m.end());
     if (const auto& force = fixed_rod_force) numbers["fixed_rod_force"] = {force->x, force->y, force->z};
-    if (active_stress) add_under("active_stress", numbers, active_stress->to_named());
+    if (active_stress) add_under("active_stress", numbers, at_first_rank(active_stress->to_named(), ranks));
     if (field) add_under("field", numbers, field->to_named());
     return numbers;
 }
@@ -158,8 +207,8 @@ StepSums StepSums::from_named(NamedNumbers numbers, const Scene& scene, const Bo
 Checkpoint checkpoint_of(const Simulation& simulation, const StepSums& sums, std::string scene) {
     Checkpoint checkpoint;
     checkpoint.scene = std::move(scene);
-    checkpoint.state = in_order_of_ids(simulation.state());
-    checkpoint.sums = sums.to_named();
+    checkpoint.state = simulation.whole_state();
+    checkpoint.sums = sums.to_named(simulation.domain().ranks());
     return checkpoint;
 }
 

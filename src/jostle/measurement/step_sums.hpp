@@ -34,11 +34,11 @@ struct StepSums {
     // since the start of the run
     double run_max_overlap = 0.0;
     // of swimmers
-    std::optional<ActiveStress> active_stress;
-    Mat3 active_virial;                  ///< V times it, at the step of the row
-    Mat3 dipole_virial, thermal_virial;  ///< likewise of stresslets, where swimmers stir the fluid
+    std::optional<ActiveStress> active_stress;  ///< of several ranks each has that of ids that are at home there
+    Mat3 active_virial;                         ///< V times it, at the step of the row
+    Mat3 dipole_virial, thermal_virial;         ///< likewise of stresslets, where swimmers stir the fluid
     // since the last field
-    std::optional<StressField> field;
+    std::optional<StressField> field;  ///< of several ranks the first one's
 
     /// Adds a step that was just made.
     void add(const StepReport& report, const Simulation& simulation);
@@ -46,18 +46,23 @@ struct StepSums {
     void look_at_swimmers(const Scene& scene, const Simulation& simulation);
     void start_row();
 
-    /// For checkpoints.
-    NamedNumbers to_named() const;
+    /// Leaves to each rank its share of what belongs to rods, before the simulation is shared.
+    void share(const Ranks& ranks);
+
+    /// For checkpoints; of several ranks for rank 0, and all call it together.
+    NamedNumbers to_named(const Ranks& ranks = {}) const;
     /// Of a run of `scene` in `box`. A stress field that the scene asks for, and that is not among them, begins here.
     /// Errors: InputError if others are missing, or not whole.
     static StepSums from_named(NamedNumbers numbers, const Scene& scene, const Box& box);
 
 private:
     void add(const StepReport& report);
+    void add_to_field(const Simulation& simulation);
     void stretch(const StepReport& report, const Box& box);
 };
 
-/// A checkpoint of the state and the sums; of files it knows nothing yet.
+/// A checkpoint of the state and the sums; of files it knows nothing yet. Of several ranks it is for rank 0, and all
+/// call this together.
 Checkpoint checkpoint_of(const Simulation& simulation, const StepSums& sums, std::string scene);
 
 /// Sums at the beginning of a run.

@@ -35,6 +35,10 @@ bool thread_count_is_free();
 /// As many threads as are worth starting for so many rods: one for every 2000, and no more than there are processors.
 int worthwhile_thread_count(std::size_t rods);
 
+/// To be told where so many processes of this machine make one run: each has its part of the processors then, and no
+/// more than it may run on.
+void share_processors(int processes);
+
 /// Number of threads used by all later loops of this thread, where it is free.
 void suit_thread_count(int count);
 

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <memory>
 #include <span>
+#include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -48,6 +50,7 @@ public:
     virtual void largest(std::span<double> values) = 0;
     virtual void add_up(std::span<std::int64_t> numbers) = 0;
     virtual std::vector<Bytes> deal(const std::vector<Bytes>& to) = 0;
+    virtual Bytes of_first(Bytes message) = 0;
     virtual std::unique_ptr<Exchange> exchange(std::vector<Exchange::Peer> peers) = 0;
 };
 
@@ -98,12 +101,29 @@ public:
         return from;
     }
 
+    /// What rank 0 gives; what the others give is not looked at.
+    std::string of_first(std::string_view message) const;
+
+    /// Whether it is the same for all.
+    bool all_have(std::uint64_t number) const;
+
     /// One value of each rank, for all.
     template <class T>
     std::vector<T> gather(const T& here) const {
         std::vector<T> all;
         for (const auto& one : deal(std::vector<std::vector<T>>(static_cast<std::size_t>(count()), {here})))
             all.push_back(one.front());
+        return all;
+    }
+
+    /// The items of all ranks, those of one after those of the other, for rank 0; none for the others.
+    template <class T>
+    std::vector<T> gather_at_first(const std::vector<T>& here) const {
+        if (alone()) return here;
+        std::vector<std::vector<T>> to(static_cast<std::size_t>(count()));
+        to[0] = here;
+        std::vector<T> all;
+        for (const auto& of_rank : deal(to)) all.insert(all.end(), of_rank.begin(), of_rank.end());
         return all;
     }
 

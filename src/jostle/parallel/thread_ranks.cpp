@@ -153,6 +153,11 @@ public:
         for (int p = 0; p < count(); ++p) from.push_back(meeting_point_.receive(p, rank_));
         return from;
     }
+    Bytes of_first(Bytes message) override {
+        if (rank_ != 0) return meeting_point_.receive(0, rank_);
+        for (int q = 1; q < count(); ++q) meeting_point_.send(0, q, message);
+        return message;
+    }
     std::unique_ptr<Exchange> exchange(std::vector<Exchange::Peer> peers) override {
         return std::make_unique<ThreadExchange>(meeting_point_, rank_, std::move(peers));
     }

@@ -24,6 +24,7 @@ constexpr std::size_t rods_per_thread = 2000;
 constexpr int max_threads = 4096;
 
 const auto processors = static_cast<std::size_t>(omp_get_num_procs());
+std::atomic<std::size_t> own_processors = processors;  ///< of these, less where others use them, too
 const char* const environment = std::getenv("OMP_NUM_THREADS");
 std::atomic<int> chosen = 0;  ///< 0: OpenMP's own, which belongs to the calling thread
 std::atomic<int> start = 1;   ///< so many have been seen to start
@@ -95,8 +96,14 @@ bool thread_count_is_free() {
 }
 
 int worthwhile_thread_count(std::size_t rods) {
-    const auto most = std::min(processors, static_cast<std::size_t>(max_that_start));
+    const auto most = std::min(own_processors.load(), static_cast<std::size_t>(max_that_start));
     return static_cast<int>(std::clamp(rods / rods_per_thread, std::size_t{1}, most));
+}
+
+void share_processors(int processes) {
+    const auto online = static_cast<std::size_t>(std::max(1, omp_get_num_procs()));
+    const auto machine = std::max(online, static_cast<std::size_t>(std::thread::hardware_concurrency()));
+    own_processors = std::clamp(machine / static_cast<std::size_t>(std::max(1, processes)), std::size_t{1}, online);
 }
 
 void suit_thread_count(int count) {

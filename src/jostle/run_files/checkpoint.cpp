@@ -289,6 +289,17 @@ void write_checkpoint(const std::string& folder, const Checkpoint& checkpoint) {
     sync_folder(folder);
 }
 
+std::string packed(const Checkpoint& checkpoint) {
+    const FieldWriter fields = fields_of(checkpoint);
+    std::string bytes;
+    for (const std::string_view piece : fields.pieces()) bytes += piece;
+    return bytes;
+}
+
+Checkpoint unpacked(std::string_view bytes) {
+    return from_fields(bytes);
+}
+
 Checkpoint read_checkpoint(const std::string& path) {
     const std::string file = read_file(path);
     const std::string_view payload = verified_payload(path, file);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "jostle/math/named_numbers.hpp"
@@ -43,6 +44,11 @@ void write_checkpoint(const std::string& folder, const Checkpoint& checkpoint);
 /// Errors: InputError that tells apart a missing, foreign, truncated or damaged file, another format version, and
 /// contents that no run can have written (`impossible_content`).
 Checkpoint read_checkpoint(const std::string& path);
+
+/// A checkpoint as bytes, for another process of the same program; and back. Errors: std::out_of_range if they are not
+/// whole.
+std::string packed(const Checkpoint& checkpoint);
+Checkpoint unpacked(std::string_view bytes);
 
 /// What no run can have left in a checkpoint, in words: a number that is not finite or out of its range, a rod outside
 /// the box, an id that stands twice; empty if all of it is possible. A file can have a right checksum and yet be made

@@ -225,8 +225,9 @@ constexpr auto words(Direction) {
         {{"x", Direction::x}, {"y", Direction::y}, {"z", Direction::z}});
 }
 constexpr auto words(StrainCoupling) {
-    return std::to_array<std::pair<std::string_view, StrainCoupling>>(
-        {{"isotropic", StrainCoupling::isotropic}, {"orthogonal", StrainCoupling::orthogonal}});
+    return std::to_array<std::pair<std::string_view, StrainCoupling>>({{"isotropic", StrainCoupling::isotropic},
+                                                                       {"orthogonal", StrainCoupling::orthogonal},
+                                                                       {"piston", StrainCoupling::piston}});
 }
 constexpr auto words(FrameTimes) {
     return std::to_array<std::pair<std::string_view, FrameTimes>>(

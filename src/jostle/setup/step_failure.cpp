@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "jostle/scene/rod_size.hpp"
-
 namespace jostle {
 
 std::string description(LcpStatus status) {
@@ -22,10 +20,10 @@ std::string description(LcpStatus status) {
     return "";
 }
 
-std::optional<std::string> step_failure(const StepReport& report, const Scene& scene, const Rods& rods) {
+std::optional<std::string> step_failure(const StepReport& report, const Scene& scene, double thinnest) {
     if (report.status != LcpStatus::converged) return description(report.status);
     if (report.max_overlap == 0.0) return std::nullopt;
-    const double limit = scene.contact.overlap_limit * smallest_diameter(scene, rods);
+    const double limit = scene.contact.overlap_limit * thinnest;
     if (report.max_overlap > limit)
         return fmt::format("rods overlap by {:.3g}, more than contact.overlap_limit allows ({:.3g})",
                            report.max_overlap, limit);

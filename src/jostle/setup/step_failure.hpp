@@ -12,7 +12,7 @@ namespace jostle {
 std::string description(LcpStatus status);
 
 /// Why a run cannot go on after a step: contacts not resolved, or rods that overlap by more than
-/// `contact.overlap_limit`. Empty after a sound step.
-std::optional<std::string> step_failure(const StepReport& report, const Scene& scene, const Rods& rods);
+/// `contact.overlap_limit` of the `thinnest` diameter. Empty after a sound step.
+std::optional<std::string> step_failure(const StepReport& report, const Scene& scene, double thinnest);
 
 }  // namespace jostle

@@ -45,7 +45,15 @@ public:
     /// before the first step, as all that follows, by all ranks together. Errors: InputError for what is not ready for
     /// several ranks.
     void share(const Ranks& ranks);
+    /// Refuses what `share` refuses, and changes nothing.
+    void require_ready_for_ranks() const;
     const Domain& domain() const { return domain_; }
+    /// How many rods all ranks have together.
+    std::size_t rods_in_all() const { return domain_.is_shared() ? shared_rods_ : state_.rods.size(); }
+    /// The state of all ranks, in the order of ids, for rank 0; for the others one without rods.
+    State whole_state() const;
+    /// Ends what `share` has begun: rank 0 has all rods, and the others none, from here on each on its own.
+    void unite();
     /// The rods of all ranks, in the order of ids: for tests and small systems.
     Rods rods_of_all_ranks() const;
     /// At the beginning of the next step rods may change their rank, for cuts that give all ranks the same number.
@@ -85,13 +93,16 @@ private:
     std::optional<Vec3> edges_of_step();
     void renumber();
     void rows_change();
-    ContactProblem posed_problem(const MobilityOperator& mobility, Contacts found) const;
+    ContactProblem posed_problem(const MobilityOperator& mobility, Contacts found, const BoxColumn& opening) const;
     std::vector<double> gap_velocities(const Contacts& contacts) const;
     std::optional<ContactSolution> resolved(ContactProblem& problem, const StepGeometry& geometry, StepReport& report);
     ContactSolution repelled(const ContactProblem& problem) const;
     EndConfiguration end_configuration(const ContactMatrix& contact_matrix, const ContactSolution& solution);
     Contacts relinearised(const ContactProblem& problem, const EndConfiguration& end) const;
-    void advance();
+    void advance(StepReport& report);
+    void open_box(StepReport& report);
+    /// Whether contact forces do, in the step in which they act.
+    bool opens_box() const { return settings_.pressure && settings_.kT == 0.0; }
     void turn_round(std::span<const std::uint32_t> rows);
     void divide();
     StepContext context() const { return {settings_.seed, state_.clock.step, settings_.time_step}; }
@@ -103,6 +114,7 @@ private:
     std::optional<Growth> growth_;
     SimulationSettings settings_;
     Domain domain_;
+    std::size_t shared_rods_ = 0;
     bool balance_ = false, gathering_ = false;  ///< when neighbours are listed next; in the next step
 
     // Results of the last step.

@@ -1,6 +1,7 @@
 // What a step does where several ranks share the rods, beside what it does on one (step.cpp).
 
 #include <string>
+#include <utility>
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/rods/space_filling_order.hpp"
@@ -21,8 +22,7 @@ void require_ready(bool is_ready, const char* key, const char* problem) {
 
 }  // namespace
 
-void Simulation::share(const Ranks& ranks) {
-    if (ranks.alone()) return;
+void Simulation::require_ready_for_ranks() const {
     require_ready(!growth_, "growth", "cells that grow are");
     require_ready(state_.springs.empty(), "springs", "springs are");
     require_ready(!settings_.schedule, "schedule", "a schedule is");
@@ -31,13 +31,17 @@ void Simulation::share(const Ranks& ranks) {
     require_ready(!settings_.warm_start, "solver.warm_start", "steps that begin from the forces of the last are");
     require_ready(!settings_.relinearise, "contact", "contacts that are linearised again are");
     require_ready(!settings_.rods_are_soft(), "contact.model", "soft rods are");
-    require_ready(!settings_.collision_moments, "output.field_every",
-                  "fields of the stress, and that of each rod, are");
     require_ready(state_.box.holds_rods_alone(), "box.walls", "walls and fixed rods are");
     require_ready(state_.box.offset() == 0.0, "box", "a sheared box is");
     require_ready(settings_.method == SolverMethod::automatic || settings_.method == SolverMethod::projected_sor,
                   "solver.method", "solvers for comparison are");
     require_ready(!mobility_->at(state_.rods, state_.box)->couples_rods(), "fluid", "rods that a fluid couples are");
+}
+
+void Simulation::share(const Ranks& ranks) {
+    if (ranks.alone()) return;
+    require_ready_for_ranks();
+    shared_rods_ = state_.rods.size();
     domain_ = Domain(ranks);
     rows_change();
     domain_.share_out(state_.rods);
@@ -64,6 +68,21 @@ void Simulation::gather(double skin) {
     neighbours.keep(rows);
     domain_.keep(state_.rods, rows);
     balance_ = gathering_ = false;
+}
+
+State Simulation::whole_state() const {
+    if (!domain_.is_shared()) return in_order_of_ids(state_);
+    State whole = {state_.box, domain_.at_first_rank(state_.rods), state_.clock};
+    whole.box_force = state_.box_force;
+    return whole;
+}
+
+void Simulation::unite() {
+    if (!domain_.is_shared()) return;
+    Rods all = domain_.at_first_rank(state_.rods);
+    rows_change();
+    state_.rods = std::move(all);
+    domain_ = Domain();
 }
 
 Rods Simulation::rods_of_all_ranks() const {

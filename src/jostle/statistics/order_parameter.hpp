@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "jostle/math/mat3.hpp"
@@ -22,5 +23,7 @@ struct NematicOrder {
 /// order of 1/sqrt(N), not 0. In two dimensions Q = <2 n n - I> and S = sqrt(<cos 2a>^2 + <sin 2a>^2), 0 where axes are
 /// random in the plane z = 0 (theory, eq. 9.3). Throws InputError if there is no axis.
 NematicOrder nematic_order(std::span<const Vec3> axes, int dimensions = 3);
+/// The same, of the sum of n n over so many axes.
+NematicOrder nematic_order(const Mat3& sum, std::size_t count, int dimensions = 3);
 
 }  // namespace jostle

@@ -10,6 +10,7 @@
 #include "jostle/error/input_error.hpp"
 #include "jostle/error/refuse.hpp"
 #include "jostle/parallel/parallel_for.hpp"
+#include "jostle/parallel/sum_over_ranks.hpp"
 
 namespace jostle {
 
@@ -62,7 +63,7 @@ void ActiveStress::divide(const Rods& rods, const Box& box, std::span<const Divi
     }
 }
 
-Mat3 ActiveStress::virial(const Rods& rods, const Box& box, std::span<const Vec3> force) {
+Mat3 ActiveStress::virial(const Rods& rods, const Box& box, std::span<const Vec3> force, const Ranks& ranks) {
     ++looks_;
     if (looks_ % lag_ == 0) {
         older_.swap(newer_);
@@ -70,11 +71,19 @@ Mat3 ActiveStress::virial(const Rods& rods, const Box& box, std::span<const Vec3
     }
     remember_new(rods, box);
     if (looks_ < lag_) return not_a_number * identity();
-    return parallel_sum<Mat3>(rods.size(), [&](std::size_t i) {
+    return sum_over_ranks<Mat3>(ranks, rods.size(), [&](std::size_t i) {
         const std::size_t place = place_of(rods.id[i]);
         const Vec3& from = is_known(older_[place]) ? older_[place] : newer_[place];
         return outer(unwrapped(rods, box, i) - from, force[i]);
     });
+}
+
+void ActiveStress::keep(std::uint64_t begin, std::uint64_t end) {
+    const auto first = std::lower_bound(id_.begin(), id_.end(), begin) - id_.begin();
+    const auto beyond = std::lower_bound(id_.begin(), id_.end(), end) - id_.begin();
+    for (std::vector<Vec3>* remembered : {&newer_, &older_})
+        *remembered = {remembered->begin() + first, remembered->begin() + beyond};
+    id_ = {id_.begin() + first, id_.begin() + beyond};
 }
 
 /// Of an id in `id_`; or where it would stand.

@@ -5,6 +5,7 @@
 
 #include "jostle/math/mat3.hpp"
 #include "jostle/math/named_numbers.hpp"
+#include "jostle/parallel/ranks.hpp"
 #include "jostle/rods/box.hpp"
 #include "jostle/rods/rods.hpp"
 
@@ -38,7 +39,13 @@ public:
 
     /// The next look. `force` (N): of the propulsion. The sum over rods of x F, first index that of x; not numbers in
     /// the first `lag` - 1 looks. A rod that came otherwise than by a division counts from the look that saw it first.
-    Mat3 virial(const Rods& rods, const Box& box, std::span<const Vec3> force);
+    /// Of several ranks each gives other rods, the same at every look, and the sum is over all of them.
+    Mat3 virial(const Rods& rods, const Box& box, std::span<const Vec3> force, const Ranks& ranks = {});
+
+    /// How many rods are remembered.
+    std::size_t size() const { return id_.size(); }
+    /// Forgets the rods whose ids are not in [begin, end).
+    void keep(std::uint64_t begin, std::uint64_t end);
 
     /// For checkpoints.
     NamedNumbers to_named() const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace jostle {
 
@@ -31,6 +32,19 @@ CollisionMoments collision_moments(const Contacts& contacts, std::span<const dou
              geometric_stress_of_rod(axis[row], rods.length[row], rods.diameter[row], torques.torque[k])});
     }
     return moments;
+}
+
+CollisionMoments at_first_rank(const CollisionMoments& moments, const Ranks& ranks) {
+    if (ranks.alone()) return moments;
+    CollisionMoments all = {ranks.gather_at_first(moments.pairs), ranks.gather_at_first(moments.bodies)};
+    // Contacts of the same two rods are of one rank, and stay in the order that they have there.
+    std::stable_sort(all.pairs.begin(), all.pairs.end(),
+                     [](const CollisionMoments::Pair& a, const CollisionMoments::Pair& b) {
+                         return std::pair(a.id_i, a.id_j) < std::pair(b.id_i, b.id_j);
+                     });
+    std::sort(all.bodies.begin(), all.bodies.end(),
+              [](const CollisionMoments::Body& a, const CollisionMoments::Body& b) { return a.id < b.id; });
+    return all;
 }
 
 Mat3 CollisionMoments::total() const {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "jostle/parallel/ranks.hpp"
 #include "jostle/rods/box.hpp"
 #include "jostle/stress/collision_stress.hpp"
 
@@ -34,6 +35,10 @@ struct CollisionMoments {
     /// V Sigma_col (theory, eq. 1.7): `sum_of_pair_stresses`, but for rounding.
     Mat3 total() const;
 };
+
+/// Those of all ranks for rank 0, none for the others; each has those of contacts and rods of its own. All ranks call
+/// it together.
+CollisionMoments at_first_rank(const CollisionMoments& moments, const Ranks& ranks);
 
 /// The parts of `sum_of_pair_stresses`, whose arguments and errors these are; `rods` stand in `box`.
 CollisionMoments collision_moments(const Contacts& contacts, std::span<const double> gamma, const Rods& rods,

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "jostle/domain/domain.hpp"
+#include "jostle/domain/homes.hpp"
 #include "jostle/parallel/thread_ranks.hpp"
 
 using namespace jostle;
@@ -135,6 +136,52 @@ TEST_CASE("no rod is lost where rods change their rank, and ghosts are all that 
                     domain.gather(rods, box, now.reach, k == 1);
                     require_sound(domain, rods, all, box, now.reach);
                 }
+            }));
+        }
+}
+
+TEST_CASE("the first rank gathers all rods in the order of ids, slice by slice") {
+    const Box box({20, 20, 20});
+    Rods all = random_rods(300, box.edges(), 3.0, 4);
+    for (std::uint64_t& id : all.id) id <<= 14;  // 5 slices
+    CHECK_NOTHROW(run_as_ranks(4, [&](const Ranks& ranks) {
+        Rods rods = all;
+        Domain domain(ranks);
+        domain.share_out(rods);
+        domain.gather(rods, box, 1.0, true);
+        const Rods whole = domain.at_first_rank(rods);
+        require(whole.size() == (ranks.rank() == 0 ? all.size() : 0), "all are at the first rank, and nowhere else");
+        require(std::is_sorted(whole.id.begin(), whole.id.end()), "they are in the order of ids");
+        for (std::size_t row = 0; row < whole.size(); ++row)  // whose ids descend
+            require(is_same_rod(whole, row, all, all.size() - 1 - row), "a rod has changed");
+    }));
+}
+
+TEST_CASE("every id has one home, and what belongs to it is brought there") {
+    struct Item {
+        std::uint64_t id;
+        double value;
+    };
+    for (const std::uint64_t ids : {0, 1, 3, 7, 100})
+        for (const int count : {1, 2, 4, 5}) {
+            CAPTURE(ids);
+            CAPTURE(count);
+            CHECK_NOTHROW(run_as_ranks(count, [&](const Ranks& ranks) {
+                const Homes homes(ranks, ids);
+                std::vector<Item> own;
+                for (std::uint64_t id = 0; id < ids; ++id)
+                    if (id * id % static_cast<std::uint64_t>(count) == static_cast<std::uint64_t>(ranks.rank()))
+                        own.push_back({id, 0.5 * static_cast<double>(id)});
+                const auto [begin, end] = homes.range();
+                std::set<std::uint64_t> here;
+                for (const Item& item : homes.bring(std::span<const Item>(own))) {
+                    require(item.id >= begin && item.id < end, "it is at home elsewhere");
+                    require(item.value == 0.5 * static_cast<double>(item.id), "it is another's");
+                    here.insert(item.id);
+                }
+                require(here.size() == end - begin, "some are missing");
+                require(ranks.sum(static_cast<std::int64_t>(end - begin)) == static_cast<std::int64_t>(ids),
+                        "homes are not all of them");
             }));
         }
 }

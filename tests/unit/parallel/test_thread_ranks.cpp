@@ -3,12 +3,15 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <initializer_list>
 #include <limits>
 #include <mutex>
 #include <numeric>
 #include <random>
 #include <stdexcept>
 
+#include "jostle/parallel/launched_ranks.hpp"
 #include "jostle/parallel/sum_over_ranks.hpp"
 #include "jostle/parallel/thread_ranks.hpp"
 
@@ -89,6 +92,43 @@ TEST_CASE("what is dealt arrives, in order, and empty where there is nothing") {
     }
     for (const auto& one : found_by_ranks<std::vector<int>>(3, [](const Ranks& r) { return r.gather(r.rank() + 1); }))
         CHECK(one == std::vector<int>{1, 2, 3});
+}
+
+TEST_CASE("the first rank tells the others, and all see where they do not have the same") {
+    using Told = std::pair<std::string, std::vector<bool>>;
+    const auto found = found_by_ranks<Told>(3, [](const Ranks& ranks) {
+        const std::string told = ranks.of_first(ranks.rank() == 0 ? std::string("a\0b", 3) : "not looked at");
+        const auto rank = static_cast<std::uint64_t>(ranks.rank());
+        std::vector<bool> same = {ranks.all_have(0x8765'4321'8765'4321)};
+        for (const unsigned bit : {0U, 31U, 32U, 63U}) same.push_back(ranks.all_have(rank == 2 ? 1ULL << bit : 0));
+        return Told{told, same};
+    });
+    for (const Told& one : found) {
+        CHECK(one.first == std::string("a\0b", 3));
+        CHECK(one.second == std::vector<bool>{true, false, false, false, false});
+    }
+    CHECK(Ranks().of_first("alone") == "alone");
+    CHECK(Ranks().all_have(7));
+}
+
+TEST_CASE("what launchers leave in the environment") {
+    const char* const names[] = {"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK", "PMI_SIZE", "PMI_RANK", "PMIX_RANK",
+                                 "SLURM_STEP_NUM_TASKS", "SLURM_PROCID"};
+    const auto launch_of = [&](std::initializer_list<std::pair<const char*, const char*>> variables) {
+        for (const char* name : names) ::unsetenv(name);
+        for (const auto& [name, value] : variables) ::setenv(name, value, 1);
+        const Launch launch = launch_in_environment();
+        for (const char* name : names) ::unsetenv(name);
+        return std::pair(launch.rank, launch.count);
+    };
+    CHECK(launch_of({}) == std::pair(0, 1));
+    CHECK(launch_of({{"OMPI_COMM_WORLD_SIZE", "4"}, {"OMPI_COMM_WORLD_RANK", "3"}}) == std::pair(3, 4));
+    CHECK(launch_of({{"OMPI_COMM_WORLD_SIZE", "1"}, {"OMPI_COMM_WORLD_RANK", "0"}}) == std::pair(0, 1));
+    CHECK(launch_of({{"PMI_SIZE", "2"}, {"PMI_RANK", "1"}}) == std::pair(1, 2));
+    CHECK(launch_of({{"SLURM_STEP_NUM_TASKS", "8"}, {"PMIX_RANK", "7"}}) == std::pair(7, 8));
+    CHECK(launch_of({{"SLURM_STEP_NUM_TASKS", "8"}, {"SLURM_PROCID", "6"}}) == std::pair(6, 8));
+    CHECK(launch_of({{"SLURM_PROCID", "0"}}) == std::pair(0, 1));  // a batch script, in no step
+    CHECK(launch_of({{"OMPI_COMM_WORLD_SIZE", "many"}}) == std::pair(0, 1));
 }
 
 TEST_CASE("an exchange sends the same messages again and again, and none where there is nothing to send") {

@@ -1,0 +1,78 @@
+#include "together.hpp"
+
+#include <algorithm>
+
+#include "jostle/disk/checksum.hpp"
+#include "jostle/error/input_error.hpp"
+#include "jostle/run_files/version.hpp"
+#include "jostle/scene/scene_flow.hpp"
+#include "jostle/scene/scene_walls.hpp"
+#include "jostle/scene/schedule.hpp"
+#include "run_record.hpp"
+
+using namespace jostle;
+
+namespace {
+
+std::vector<std::string> hosts_of(const Ranks& ranks) {
+    const std::string own = host_name();
+    std::vector<std::vector<char>> to(static_cast<std::size_t>(ranks.count()));
+    to[0].assign(own.begin(), own.end());
+    std::vector<std::string> hosts;
+    for (const auto& name : ranks.deal(to)) hosts.emplace_back(name.begin(), name.end());
+    std::sort(hosts.begin(), hosts.end());
+    hosts.erase(std::unique(hosts.begin(), hosts.end()), hosts.end());
+    return hosts;
+}
+
+}  // namespace
+
+Together::Together(const Ranks& ranks) : ranks_(ranks), hosts_(hosts_of(ranks)) {}
+
+void Together::require_ready(const Scene& scene) const {
+    if (ranks_.alone()) return;
+    const auto refuse_if = [](bool is_asked_for, const char* key, const char* what) {
+        if (is_asked_for)
+            throw InputError({.key = key,
+                              .problem = std::string(what) + " not ready for several ranks",
+                              .suggestion = "Start the run without a launcher, or without the key"});
+    };
+    refuse_if(scene.growth.rate > 0.0, "growth.rate", "cells that grow are");
+    refuse_if(!scene.springs.file.empty(), "springs.file", "springs are");
+    refuse_if(has_schedule(scene), "schedule", "schedules are");
+    refuse_if(scene.pressure.external.has_value(), "pressure.external", "a pressure that is given is");
+    refuse_if(has_flow(scene), "flow", "flows are");
+    refuse_if(scene_walls(scene).any(), "box.walls", "walls are");
+    refuse_if(!scene.rods.fixed.empty(), "rods.fixed", "fixed rods are");
+    refuse_if(scene.mobility.model == MobilityModel::hydrodynamic, "mobility.model", "rods that a fluid couples are");
+    refuse_if(scene.contact.model == ContactModel::wca, "contact.model", "soft rods are");
+    refuse_if(scene.solver.warm_start == WarmStarts::always, "solver.warm_start", "steps that begin warm are");
+    refuse_if(scene.solver.method != SolverMethod::automatic && scene.solver.method != SolverMethod::projected_sor,
+              "solver.method", "solvers for comparison are");
+}
+
+void Together::begin(const RunScene& scene, const Simulation& simulation, const StepSums& sums) {
+    have_begun_ = true;
+    if (!ranks_.alone()) ranks_.of_first(packed(checkpoint_of(simulation, sums, scene.text)));
+}
+
+void Together::call_off() const {
+    ranks_.of_first("");
+}
+
+std::optional<Checkpoint> Together::wait_for_first() const {
+    const std::string told = ranks_.of_first("");
+    if (told.empty()) return std::nullopt;
+    return unpacked(told);
+}
+
+void require_same_command(const Ranks& ranks, const RunOptions& options) {
+    const bool same = ranks.all_have(checksum(options.command_line + '\n' + program_version + '\n' + program_commit));
+    if (same || ranks.rank() > 0) return;
+    throw InputError({.key = "ranks",
+                      .value = std::to_string(ranks.count()),
+                      .problem = "they were started with different commands, or different builds of jostle, and make "
+                                 "one run together",
+                      .suggestion = "Start all with the same words; runs that have nothing to do with each other need "
+                                    "--alone"});
+}

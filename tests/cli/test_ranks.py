@@ -1,0 +1,243 @@
+"""Runs of several ranks, started by mpirun: every file has the bytes of a run of one process, for any number of ranks and
+threads, also when a run stops, is killed, and goes on with another number."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+
+import pytest
+
+from jostle_command import (BAD_INPUT, DISK, DONE, JOSTLE, RESULTS, STOPPED, changed, checkpoint_step, datasets, finish,
+                            kill, run, rows_of, start, started, wait_until, with_steps, write_scene)
+
+MPIRUN = os.environ.get("JOSTLE_MPIRUN", "")
+needs_mpi = pytest.mark.skipif(not MPIRUN, reason="MPI was not found when this was configured")
+
+CROWD = {
+    "seed": 5,
+    "box": {"volume_fraction": 0.3},
+    "rods": {"count": 160, "length": 3.0, "start": "aligned"},  # a start that takes no time
+    "time": {"step": 0.01, "equilibration": 0.0, "production": 0.3},
+    "output": {"series_every": 5, "trajectory_every": 12, "checkpoint_every": 10, "stress_conventions": True},
+}
+SCENES = {
+    "dense": changed(CROWD, output={"contacts": True, "stress_per_rod": True, "field_every": 10}),
+    "polydisperse": changed(CROWD, rods={"length_deviation": 0.5, "diameter_deviation": 0.1}),
+    "spheres": changed(CROWD, rods={"length": 0.0}, time={"step": 0.003, "production": 0.09}),
+    "long": changed(CROWD, box={"volume_fraction": 0.1}, rods={"count": 60, "length": 20.0}),
+    "few": changed(CROWD, box={"volume_fraction": 0.15}, rods={"count": 3, "start": "random"}),
+    "plane": changed(CROWD, box={"volume_fraction": None, "area_fraction": 0.3, "dimensions": 2}),
+    "pulled": changed(CROWD, forces={"on_rods": [1.0, 0.0, 0.0], "drift": True, "alignment_energy": 2.0}),
+    "swimmers": changed(CROWD, motion={"self_propulsion": 1.0, "self_propulsion_deviation": 0.3, "tumble_rate": 2.0,
+                                       "tumble_time": 0.2, "reversal_rate": 1.0},
+                        output={"active_stress_lag": 0.1}),
+}
+
+
+def launcher(ranks):
+    """The options are for more ranks than processors, and a machine that has root only."""
+    return [MPIRUN, "--oversubscribe", "--allow-run-as-root", "--mca", "btl", "self,vader", "--mca",
+            "mpi_yield_when_idle", "1", "--bind-to", "none", "-n", str(ranks)]
+
+
+def words(ranks, *options, threads=1):
+    """As `run_arguments`, by so many ranks; 0: without a launcher."""
+    own = [JOSTLE, "run", "scene.toml", "--out", "run", "--threads", str(threads), *options]
+    return own if ranks == 0 else launcher(ranks) + own
+
+
+def on_ranks(folder, ranks, *options, threads=1):
+    return subprocess.run(words(ranks, *options, threads=threads), cwd=folder, capture_output=True, text=True,
+                          timeout=120)
+
+
+def start_on_ranks(folder, ranks, *options, threads=1):
+    process = subprocess.Popen(words(ranks, *options, threads=threads), cwd=folder, text=True, stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE)
+    started.append(process)
+    return process
+
+
+def lines_of_jostle(stderr):
+    """What the command says, without what mpirun adds."""
+    return [line for line in stderr.splitlines() if line.startswith("jostle: ")]
+
+
+def require_same_files(folder, reference):
+    """As require_same_results, which does not know of mpirun."""
+    for name in RESULTS:
+        assert (folder / name).exists() == (reference / name).exists(), name
+        if (reference / name).exists():
+            assert (folder / name).read_bytes() == (reference / name).read_bytes(), f"{name} differs"
+    ours, theirs = datasets(folder / "trajectory.h5"), datasets(reference / "trajectory.h5")
+    del ours["parameters/command_line"], theirs["parameters/command_line"]  # they tell the threads
+    assert ours == theirs
+    assert not list(folder.glob("*.tmp"))
+
+
+def pid_of_rank(process, rank):
+    """The process number of a rank, from the environment that mpirun has given it."""
+    for number in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{number}/environ", "rb") as file:
+                environment = file.read().split(b"\0")
+            with open(f"/proc/{number}/stat") as file:
+                parent = int(file.read().rsplit(")", 1)[1].split()[1])
+        except (OSError, IndexError):
+            continue
+        if parent == process.pid and f"OMPI_COMM_WORLD_RANK={rank}".encode() in environment:
+            return int(number)
+    raise AssertionError(f"there is no rank {rank}")
+
+
+@needs_mpi
+@pytest.mark.parametrize("name", SCENES)
+def test_files_are_those_of_a_run_alone(tmp_path, name):
+    """The first scene on every number of ranks and threads, the others on one of them."""
+    write_scene(tmp_path / "alone", SCENES[name])
+    reference = finish(tmp_path / "alone")
+    every = [(1, 1), (2, 1), (2, 2), (3, 2), (4, 1)]
+    place = list(SCENES).index(name)
+    for ranks, threads in every if name == "dense" else [every[1 + place % 4]]:
+        folder = tmp_path / f"{ranks}_{threads}"
+        write_scene(folder, SCENES[name])
+        result = on_ranks(folder, ranks, threads=threads)
+        assert result.returncode == DONE, result.stderr
+        require_same_files(folder / "run", reference)
+        session = json.loads((folder / "run/run.json").read_text())["sessions"][-1]
+        assert (session["ranks"], session["threads"]) == (ranks, threads)
+        assert ("hosts" in session) == (ranks > 1)
+        assert result.stdout.count("files in run") == 1
+
+
+@needs_mpi
+@pytest.mark.parametrize("name", ["dense", "swimmers"])
+def test_stopped_and_going_on_with_other_numbers_of_ranks(tmp_path, name):
+    """4 ranks, 3, none and 5, stopped by SIGUSR1 to mpirun, which ranks live on with, and to the process."""
+    scene = with_steps(SCENES[name], 400)
+    scene = changed(scene, output={"checkpoint_every": 10**6})
+    write_scene(tmp_path / "alone", scene)
+    reference = finish(tmp_path / "alone")
+    folder = tmp_path / "stopped"
+    write_scene(folder, scene)
+    steps = []
+    for ranks, rows in [(4, 4), (3, 14), (0, 22), (5, 30)]:
+        process = start_on_ranks(folder, ranks)
+        wait_until(lambda rows=rows: rows_of(folder / "run/series.csv") > rows, process, 60.0)
+        status, _, stderr = kill(process, signal.SIGUSR1)
+        assert status == STOPPED, stderr
+        assert sum("stopped at step" in line for line in lines_of_jostle(stderr)) == 1
+        assert json.loads((folder / "run/run.json").read_text())["exit_reason"] == f"signal {signal.SIGUSR1.value}"
+        steps.append(checkpoint_step(folder / "run"))
+    assert steps == sorted(set(steps)) and steps[-1] < 400
+    assert on_ranks(folder, 2).returncode == DONE
+    require_same_files(folder / "run", reference)
+
+
+@needs_mpi
+@pytest.mark.parametrize("rank", [0, 2])
+def test_a_rank_that_is_killed(tmp_path, rank):
+    """kill -9: the launcher ends the others, and the run goes on from its last checkpoint."""
+    scene = changed(with_steps(CROWD, 300), output={"checkpoint_every": 25})
+    write_scene(tmp_path / "alone", scene)
+    reference = finish(tmp_path / "alone")
+    folder = tmp_path / "killed"
+    write_scene(folder, scene)
+    process = start_on_ranks(folder, 3)
+    wait_until(lambda: rows_of(folder / "run/series.csv") > 8, process)
+    os.kill(pid_of_rank(process, rank), signal.SIGKILL)
+    process.communicate(timeout=60)
+    assert process.returncode not in (DONE, STOPPED)
+    assert 0 <= checkpoint_step(folder / "run") < 300
+    assert on_ranks(folder, 2).returncode == DONE
+    require_same_files(folder / "run", reference)
+
+
+@needs_mpi
+def test_the_wall_time_of_the_first_rank_stops_all(tmp_path):
+    scene = changed(with_steps(CROWD, 10**6), rods={"start": "aligned"})
+    write_scene(tmp_path, scene)
+    result = on_ranks(tmp_path, 2, "--walltime", "3s")
+    assert result.returncode == STOPPED, result.stderr
+    assert json.loads((tmp_path / "run/run.json").read_text())["exit_reason"] == "walltime"
+    assert checkpoint_step(tmp_path / "run") > 0
+
+
+@needs_mpi
+@pytest.mark.parametrize("changes, key", [
+    ({"growth": {"rate": 0.1, "division_length": 7.0}}, "growth.rate"), ({"flow": {"shear_rate": 1.0}}, "flow"),
+    ({"solver": {"warm_start": "always"}}, "solver.warm_start"), ({"box": {"volume_fraction": 5.0}}, "box.volume_fraction")])
+def test_what_is_refused_leaves_no_trace(tmp_path, changes, key):
+    """What ranks cannot do, and what nobody can: one line of the first rank, and nothing on the disk."""
+    write_scene(tmp_path, changed(CROWD, **changes))
+    result = on_ranks(tmp_path, 2)
+    assert result.returncode == BAD_INPUT, result.stderr
+    lines = lines_of_jostle(result.stderr)
+    assert len(lines) == 1 and key in lines[0], result.stderr
+    assert not (tmp_path / "run").exists()
+
+
+@needs_mpi
+def test_an_error_of_the_first_rank_ends_all(tmp_path):
+    """Its folder is taken away while it runs."""
+    write_scene(tmp_path, with_steps(CROWD, 10**6))
+    process = start_on_ranks(tmp_path, 2)
+    wait_until(lambda: rows_of(tmp_path / "run/series.csv") > 2, process)
+    shutil.rmtree(tmp_path / "run")
+    _, stderr = process.communicate(timeout=60)
+    assert process.returncode == DISK, stderr
+    assert len(lines_of_jostle(stderr)) == 1 and "rank" not in lines_of_jostle(stderr)[0]
+
+
+@needs_mpi
+def test_an_error_of_another_rank_ends_all(tmp_path):
+    """Its number of threads is none. The run goes on without that."""
+    write_scene(tmp_path, CROWD)
+    one = [JOSTLE, "run", "scene.toml", "--out", "run"]
+    result = subprocess.run(launcher(2) + one + [":", "-n", "1", "-x", "OMP_NUM_THREADS=0", *one], cwd=tmp_path,
+                            capture_output=True, text=True, timeout=120)
+    assert result.returncode == BAD_INPUT, result.stderr
+    assert [line for line in lines_of_jostle(result.stderr) if "OMP_NUM_THREADS" in line][0].startswith("jostle: rank 2 of 3: ")
+    assert checkpoint_step(tmp_path / "run") == 0
+    assert on_ranks(tmp_path, 2).returncode == DONE
+
+
+@needs_mpi
+def test_other_words_are_other_runs(tmp_path):
+    """Processes that a launcher started for runs of their own are told from ranks by their words."""
+    write_scene(tmp_path, CROWD)
+    result = subprocess.run(words(1) + [":", "-n", "1", *words(0, "--quiet")], cwd=tmp_path, capture_output=True, text=True,
+                            timeout=120)
+    assert result.returncode == BAD_INPUT
+    assert len(lines_of_jostle(result.stderr)) == 1 and "--alone" in lines_of_jostle(result.stderr)[0]
+    for name in "ab":
+        write_scene(tmp_path / name, CROWD)
+    separate = [JOSTLE, "run", "scene.toml", "--quiet", "--alone"]
+    result = subprocess.run(launcher(1) + ["--wdir", str(tmp_path / "a"), *separate, ":", "-n", "1", "--wdir",
+                                           str(tmp_path / "b"), *separate], capture_output=True, text=True, timeout=120)
+    assert result.returncode == DONE, result.stderr
+    assert (tmp_path / "a/scene.run/series.csv").read_bytes() == (tmp_path / "b/scene.run/series.csv").read_bytes()
+
+
+@pytest.mark.skipif(bool(MPIRUN), reason="MPI was found when this was configured")
+@pytest.mark.parametrize("rank", [0, 1])
+def test_a_build_without_mpi_refuses_a_launcher(tmp_path, rank):
+    """Of several processes the first says it."""
+    write_scene(tmp_path, CROWD)
+    environment = {**os.environ, "OMPI_COMM_WORLD_SIZE": "2", "OMPI_COMM_WORLD_RANK": str(rank)}
+    result = run(tmp_path, env=environment)
+    assert result.returncode == BAD_INPUT
+    assert ("built without MPI" in result.stderr) == (rank == 0) and result.stderr.count("\n") == (rank == 0)
+    assert not (tmp_path / "run").exists()
+
+
+def test_usr1_stops_a_run_alone(tmp_path):
+    """Batch programs send it some time before the end; more than one is as good as one."""
+    write_scene(tmp_path, changed(with_steps(CROWD, 10**6), output={"checkpoint_every": 10**6}))
+    process = start(tmp_path)
+    wait_until(lambda: rows_of(tmp_path / "run/series.csv") > 2, process)
+    process.send_signal(signal.SIGUSR1)
+    assert kill(process, signal.SIGUSR1)[0] == STOPPED
+    assert checkpoint_step(tmp_path / "run") > 0
