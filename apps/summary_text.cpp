@@ -31,6 +31,11 @@ const Checks all_checks[] = {{"stress ratio along/across the director",
                                {"wall_pressure_x_ratio", "planes across x"},
                                {"wall_pressure_y_ratio", "planes across y"},
                                {"wall_pressure_z_ratio", "planes across z"}}},
+                             {"pressure of the rods over that of the bath",
+                              "the ratio of pressures, ",
+                              ",",
+                              "equilibrium",
+                              {{"bath_pressure_ratio", "rods over bath"}}},
                              {"stress of torques over what the flow turns the axes by",
                               "the ratio of stress and turning, ",
                               ",",
@@ -125,6 +130,16 @@ std::string text_of_flow(const Json& flow, const jostle::Scene& scene, bool with
     return text + "  " + flow[main]["definition"].get<std::string>() + "\n";
 }
 
+/// Where the box came to rest, or not yet.
+std::string text_of_compression(const Json& last) {
+    const auto number = [&](const char* key, int digits) {
+        return fmt::format("{:.{}g}", last[key].get<double>(), digits);
+    };
+    return line("volume fraction", number("volume_fraction", 5) + "  (in the end)") +
+           line("pressure", number("pressure_over_external", 4) + " of that of the bath  (in the end)") +
+           line("contacts", number("contacts_per_rod", 4) + " of a rod  (in the end)");
+}
+
 /// Between walls these are no pressures (theory, section 6).
 bool is_third_of_trace(std::string_view key) {
     return key == "pressure" || key == "pressure_collision";
@@ -160,7 +175,9 @@ std::string summary_text(const Json& summary, const jostle::Scene& scene) {
     if (summary.contains("pressure_control")) {
         const Json& control = summary["pressure_control"];
         for (const auto& [key, name] : {std::pair{"volume_fraction", "volume fraction"}, {"Z", "Z = P V/(N kT)"}})
-            text += line(name, mean_text(control[key], scene) + "  " + support_text(control[key], withheld));
+            if (control.contains(key) && !control.contains("last"))
+                text += line(name, mean_text(control[key], scene) + "  " + support_text(control[key], withheld));
+        if (control.contains("last")) text += text_of_compression(control["last"]);
         if (control.value("limit_reached", false)) text += line("ended at", "pressure.limit_volume_fraction");
     }
     for (const Checks& checks : all_checks) text += text_of_checks(checks, summary["checks"], scene, withheld);

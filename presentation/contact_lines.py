@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from frames_of_page import Packed, between, folded
+from frames_of_page import packed_lines
 
 MOST = 10**6         # lines of all frames; of more the page has none
 THICKEST = 0.7       # of the diameter of a rod: the line of the largest forces
@@ -15,25 +15,16 @@ def packed_contacts(run, frames, extent):
     order = np.argsort(rows["step"], kind="stable")
     rows = {name: values[order] for name, values in rows.items()}
     lines = [_of_frame(frame, rows) for frame in frames]
-    force = np.concatenate([of_frame[3] for of_frame in lines])
+    force = np.concatenate([of_frame[1] for of_frame in lines])
     if not 0 < len(force) <= MOST:
         return None
-    middle, axis, length = (np.concatenate([of_frame[k] for of_frame in lines]) for k in range(3))
-    packed = Packed("contacts", [frame.time for frame in frames], [len(of_frame[3]) for of_frame in lines])
-    low, high = extent
-    for k, name in enumerate("xyz"):
-        packed.add(name, between(middle[:, k], low[k], high[k]))
-    for name, values in zip(("axis_a", "axis_b"), folded(axis)):
-        packed.add(name, values)
-    packed.add_varying("length", length)
-    strong = np.percentile(force, STRONG)
     thickest = THICKEST * max(frame.diameter.max(initial=0.0) for frame in frames)
-    packed.add_varying("diameter", thickest * np.sqrt(np.minimum(force / strong, 1.0)))
-    return packed
+    thickness = thickest * np.sqrt(np.minimum(force / np.percentile(force, STRONG), 1.0))
+    return packed_lines("contacts", [frame.time for frame in frames], [of_frame[0] for of_frame in lines], thickness, extent)
 
 
 def _of_frame(frame, rows):
-    """middle (K, 3), unit vector along (K, 3), length (K), force (K) of the lines in this frame."""
+    """Ends (K, 2, 3) and force (K) of the lines in this frame."""
     begin, end = np.searchsorted(rows["step"], [frame.step, frame.step + 1])
     here = {name: values[begin:end] for name, values in rows.items()}
     i, j = (np.searchsorted(frame.id, here[name].astype(np.int64)) for name in ("id_i", "id_j"))
@@ -52,4 +43,4 @@ def _of_frame(frame, rows):
     arm = np.where(at_wall, here["arm_j"], here["arm_i"])
     first = frame.centre[i] + arm[:, None] * frame.axis[i]
     length = 0.5 * (np.where(at_wall, 0.0, frame.diameter[i]) + frame.diameter[j]) + here["gap"]
-    return first + 0.5 * length[:, None] * normal, normal, length, here["force"]
+    return np.stack((first, first + length[:, None] * normal), axis=1), here["force"]

@@ -72,16 +72,32 @@ def chosen_frames(counts, megabytes):
     return np.array([frames - 1])
 
 
-def packed_rods(frames, extent):
-    """frames: of the run; extent: (lowest, highest corner) that holds all centres."""
-    rods = Packed("rods", [frame.time for frame in frames], [len(frame) for frame in frames])
+def packed_lines(name, times, lines, thickness, extent):
+    """lines: (K, 2, 3) ends of each frame; thickness: of all, or (K in all) of each."""
+    packed = Packed(name, times, [len(of_frame) for of_frame in lines])
+    ends = np.concatenate(lines)
+    along = ends[:, 1] - ends[:, 0]
+    length = np.linalg.norm(along, axis=1)
+    _add_places(packed, ends.mean(axis=1), along / length[:, None], extent)
+    packed.add_varying("length", length)
+    packed.add_varying("diameter", np.broadcast_to(thickness, len(ends)))
+    return packed
+
+
+def _add_places(packed, centre, axis, extent):
     low, high = extent
-    centre, axis = (np.concatenate([getattr(frame, name) for frame in frames]) for name in ("centre", "axis"))
     for k, name in enumerate("xyz"):
-        rods.add(name, between(centre[:, k], low[k], high[k]))
+        packed.add(name, between(centre[:, k], low[k], high[k]))
     for name, values in zip(("axis_a", "axis_b"), folded(axis)):
-        rods.add(name, values)
+        packed.add(name, values)
+
+
+def packed_rods(frames, extent, name="rods"):
+    """frames: of the run; extent: (lowest, highest corner) that holds all centres."""
+    rods = Packed(name, [frame.time for frame in frames], [len(frame) for frame in frames])
+    _add_places(rods, *(np.concatenate([getattr(frame, name) for frame in frames]) for name in ("centre", "axis")), extent)
     for name in ("length", "diameter"):
         rods.add_varying(name, np.concatenate([getattr(frame, name) for frame in frames]))
+    low, high = extent
     rods.told.update(low=[float(value) for value in low], span=[float(value) for value in np.maximum(high - low, 1e-9)])
     return rods

@@ -3,4 +3,8 @@
 from run_folder import of_the_package
 
 _frames = of_the_package("gsd_frames")
-is_ours, write = _frames.is_ours, _frames.write
+is_ours = _frames.is_ours
+
+
+def write(path, trajectory):
+    _frames.write(path, trajectory, trajectory.fixed)

@@ -73,7 +73,7 @@ def draw_frames(run, rods, way, camera, width, folder):
         if sys.stderr.isatty():
             print(f"\rpicture {number + 1} of {len(rods.frames)}", end="", file=sys.stderr)
         missing = rods_view.draw(frame, folder, width, camera, rod_colours.of_frame(way, rods.frames, number), way, run.propelled,
-                                 f"time {factor * frame.time:.4g} {unit}", f"{number:05d}.png", fixed=run.fixed_rods)
+                                 f"time {factor * frame.time:.4g} {unit}", f"{number:05d}.png", fixed=rods.fixed)
         if missing:
             raise Refusal(run.folder, f"frame {number} cannot be drawn: {missing}")
     if sys.stderr.isatty():

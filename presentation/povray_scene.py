@@ -7,6 +7,7 @@ FIELD_OF_VIEW = np.radians(24.0)  # small: rods far away look as long as those n
 HEAD = (0.84, 0.37, 0.0)          # vermillion: told from viridis by everybody
 FIXED = (0.45, 0.45, 0.45)
 EDGE = (0.35, 0.35, 0.35)
+WALL = (0.16, 0.2, 0.26)
 
 SETTINGS = """\
 // Rods as spherocylinders. Draw again at any size: povray view.pov +W3200 +H{tall} +A0.1
@@ -28,22 +29,16 @@ background {{ rgb 1.0 }}
 
 
 def scene(frame, camera, colours, heads, fixed=None):
-    """The text of the scene. colours: (N, 3), sRGB in 0..1; heads: whether the end that swims ahead is marked; fixed: rods that
-    do not move, as `RunFolder.fixed_rods` has them."""
-    parts = [SETTINGS.format(tall=round(3200 / camera.aspect)), camera.text(), lights(frame, camera), box_edges(frame)]
+    """The text of the scene. colours: (N, 3), sRGB in 0..1; heads: whether the end that swims ahead is marked; fixed: a frame of
+    rods that nothing moves."""
+    parts = [SETTINGS.format(tall=round(3200 / camera.aspect)), camera.text(), lights(frame, camera), box_edges(frame), walls(frame)]
     for ends, diameter, colour in zip(frame.ends(), frame.diameter, colours):
         parts.append(rod(ends, 0.5 * diameter, colour))
-    parts += fixed_rods(fixed) if fixed else []
+    if fixed is not None:
+        parts += [rod(ends, 0.5 * diameter, FIXED) for ends, diameter in zip(fixed.ends(), fixed.diameter)]
     if heads:
         parts += [head(*of_rod) for of_rod in zip(frame.ends()[:, 1], frame.axis, frame.length, 0.5 * frame.diameter)]
     return "".join(parts)
-
-
-def fixed_rods(fixed):
-    centre = np.column_stack([fixed[name] for name in "xyz"])
-    reach = 0.5 * fixed["length"][:, None] * np.column_stack([fixed[name] for name in ("nx", "ny", "nz")])
-    ends = np.stack((centre - reach, centre + reach), axis=1)
-    return [rod(pair, 0.5 * diameter, FIXED) for pair, diameter in zip(ends, fixed["diameter"])]
 
 
 def rod(ends, radius, colour):
@@ -69,25 +64,40 @@ def lights(frame, camera):
 
 
 def extent(frame):
-    """(lowest, highest corner) of what is shown: the box where it is periodic, the rods where it is open."""
+    """(lowest, highest corner) of what is shown: the box where it is periodic or ends at walls, the rods where it is open."""
     ends = np.concatenate((frame.ends().reshape(-1, 3), frame.centre))
     if len(ends) == 0:
         return np.zeros(3), frame.edges
-    return np.where(frame.periodic, 0.0, ends.min(axis=0)), np.where(frame.periodic, frame.edges, ends.max(axis=0))
+    return np.where(frame.held, 0.0, ends.min(axis=0)), np.where(frame.held, frame.edges, ends.max(axis=0))
 
 
 def box_edges(frame):
-    if not frame.periodic.any():
+    if not outlined(frame):
         return ""
     low, high = extent(frame)
     corners = [low + np.array(corner) * (high - low) for corner in np.ndindex(2, 2, 2)]
-    thickness = 0.0018 * np.linalg.norm(high - low)
+    thickness = thickness_of_edges(low, high)
     text = ""
     for a, first in enumerate(corners):
         for second in corners[a + 1:]:
             if np.count_nonzero(first != second) == 1:
                 text += f"Edge({vector(first)}, {vector(second)}, {thickness:.6g}, {vector(EDGE)})\n"
     return text
+
+
+def outlined(frame):
+    """Whether the box is drawn: not around rods in the open, nor around a container."""
+    return bool(frame.held.any()) and frame.walls.container == "none"
+
+
+def thickness_of_edges(low, high):
+    return 0.0018 * np.linalg.norm(high - low)
+
+
+def walls(frame):
+    """Outlines of planes, rings of containers."""
+    thickness = 1.6 * thickness_of_edges(*extent(frame))
+    return "".join(f"Edge({vector(a)}, {vector(b)}, {thickness:.6g}, {vector(WALL)})\n" for a, b in frame.walls.lines(frame.edges))
 
 
 class Camera:
@@ -118,7 +128,7 @@ class Camera:
         corners = low + np.array(list(np.ndindex(2, 2, 2))) * (high - low)
         middle = 0.5 * (low + high)
         reach = 0.5 * frame.diameter.max(initial=0.0)
-        shown = [frame.ends().reshape(-1, 3)] + ([corners] if frame.periodic.any() or len(frame) == 0 else [])
+        shown = [frame.ends().reshape(-1, 3)] + ([corners] if frame.held.any() or len(frame) == 0 else [])
         points = np.concatenate(shown) - middle
         half_width = np.tan(0.5 * FIELD_OF_VIEW)
         x, y, depth = points @ self.right, points @ self.up, points @ self.direction

@@ -81,7 +81,7 @@ def still_of(run, rods, folder, width):
     factor, unit = run.in_unit("time")
     time = " ".join(part for part in (f"{factor * frame.time:.4g}", unit) if part)
     missing = rods_view.draw(frame, folder, width, rods.camera, rod_colours.of_frame(way, rods.frames, rods.start), way,
-                             run.propelled, f"time {time}", fixed=run.fixed_rods)
+                             run.propelled, f"time {time}", fixed=rods.fixed)
     if missing:
         return None, [f"No still picture of the rods: {missing}"]
     return (rods_view.PICTURE, f"The {len(frame)} rods at time {time}, as spherocylinders"), []

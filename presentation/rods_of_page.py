@@ -10,9 +10,10 @@ from matplotlib import colormaps
 import colourings
 import contact_lines
 import povray_scene
-from frames_of_page import BYTES_OF_ROD, MEGABYTE, chosen_frames, packed_rods
+from frames_of_page import BYTES_OF_ROD, MEGABYTE, chosen_frames, packed_lines, packed_rods
 from lineage import Lineage
 from refusal import Refusal
+from trajectory import Frame
 
 
 @dataclass(frozen=True)
@@ -34,6 +35,7 @@ class Rods:
     start: int = 0                             # place in `frames` of the one to begin with
     camera: povray_scene.Camera = None         # to begin with
     notes: list = field(default_factory=list)
+    fixed: Frame = None                        # rods that nothing moves
 
 
 def rods_of(run, trajectory, megabytes, seen):
@@ -56,7 +58,8 @@ def rods_of(run, trajectory, megabytes, seen):
 
 def frames_of(run, trajectory, numbers=None):
     """The frames with these numbers, or all, and the ways to colour them."""
-    made = Rods(frames=[trajectory.frame(k) for k in (range(len(trajectory)) if numbers is None else numbers)])
+    made = Rods(frames=[trajectory.frame(k) for k in (range(len(trajectory)) if numbers is None else numbers)],
+                fixed=trajectory.fixed)
     if run.grows and (run.folder / "lineage.csv").exists():
         lineage = Lineage(run, made.frames)
         made.cells = [lineage.at(frame) for frame in made.frames]
@@ -87,7 +90,7 @@ def view_of(name):
 
 def _describe(run, made):
     frames = made.frames
-    extent = _extent(frames)
+    extent = _extent([*frames, *([made.fixed] if made.fixed else [])])
     rods = packed_rods(frames, extent)
     camera = made.camera
     factor, _ = run.in_unit("time")
@@ -97,27 +100,48 @@ def _describe(run, made):
                  "seen": _seen(frames).tolist(), "boxes": _boxes(frames),
                  "camera": {"back": (-camera.direction).tolist(), "pole": camera.pole.tolist()}}
     made.elements = rods.elements
+    _describe_surroundings(made, extent)
     if (run.folder / "contacts.csv").exists():
         lines = contact_lines.packed_contacts(run, frames, extent)
         if lines:
-            made.told["contacts"] = {**lines.told, "low": rods.told["low"], "span": rods.told["span"]}
-            made.elements.update(lines.elements)
+            _add(made, "contacts", lines)
+
+
+def _add(made, name, packed):
+    """Lines or rods beside those that move, on their scale of positions."""
+    made.told[name] = {**packed.told, "low": made.told["rods"]["low"], "span": made.told["rods"]["span"]}
+    made.elements.update(packed.elements)
+
+
+def _describe_surroundings(made, extent):
+    """Rods that nothing moves, and lines for the walls: of one frame where the box does not change."""
+    if made.fixed:
+        _add(made, "fixed", packed_rods([made.fixed], extent, "fixed"))
+    frames = made.frames if _changes(made.frames) else made.frames[-1:]
+    lines = [frame.walls.lines(frame.edges) for frame in frames]
+    if len(lines[0]):
+        thickness = 3.2 * povray_scene.thickness_of_edges(*povray_scene.extent(frames[-1]))
+        _add(made, "walls", packed_lines("walls", [frame.time for frame in frames], lines, thickness, extent))
 
 
 def _extent(frames):
     """Corners that hold all centres and the box, with room for lines that stick out."""
     reach = max((frame.length + frame.diameter).max(initial=0.0) for frame in frames)
     centres = [frame.centre for frame in frames if len(frame)]
-    corners = [np.zeros((1, 3)), *(frame.edges[None] for frame in frames)] if frames[-1].periodic.any() else []
+    corners = [np.zeros((1, 3)), *(frame.edges[None] for frame in frames)] if frames[-1].held.any() else []
     points = np.concatenate(centres + corners) if centres or corners else np.zeros((1, 3))
     return points.min(axis=0) - reach, points.max(axis=0) + reach
 
 
 def _boxes(frames):
     """(lowest, highest corner) of the box in each frame, or one where it does not change; none where it is open."""
-    changes = any((frame.edges != frames[-1].edges).any() for frame in frames)
-    drawn = frames if changes else frames[-1:]
-    return [[corner.tolist() for corner in povray_scene.extent(frame)] for frame in drawn if frame.periodic.any()]
+    drawn = frames if _changes(frames) else frames[-1:]
+    return [[corner.tolist() for corner in povray_scene.extent(frame)] for frame in drawn if povray_scene.outlined(frame)]
+
+
+def _changes(frames):
+    """Whether the box does."""
+    return any((frame.edges != frames[-1].edges).any() for frame in frames)
 
 
 def _seen(frames):
@@ -125,7 +149,7 @@ def _seen(frames):
     frame = dataclasses.replace(frames[-1], edges=np.max([frame.edges for frame in frames], axis=0))
     low, high = povray_scene.extent(frame)
     corners = low + np.array(list(np.ndindex(2, 2, 2))) * (high - low)
-    if frame.periodic.any() or len(frame) == 0:
+    if frame.held.any() or len(frame) == 0:
         return corners
     around = np.array([way for way in np.ndindex(5, 5, 5) if way != (2, 2, 2)]) - 2.0
     ends = frame.ends().reshape(-1, 3)

@@ -1,12 +1,15 @@
-"""The rods of a trajectory.h5, frame by frame."""
+"""The rods of a trajectory.h5, frame by frame, and what stands around them."""
 
-from dataclasses import dataclass
+import dataclasses
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import h5py
 import numpy as np
 
 from refusal import Refusal
+from run_folder import Run
+from surroundings import Walls, walls_of
 
 NO_ROD = -1  # id in rows that no rod fills, where the number of rods changes
 
@@ -26,9 +29,15 @@ class Frame:
     diameter: np.ndarray  # (N)
     offset: float = 0.0   # of the copies above along y, along x, where a flow shears the box
     pressure: np.ndarray = None  # (N) of the collision stress of each rod, where it was kept; NaN where it is not known
+    walls: Walls = field(default_factory=Walls)
 
     def __len__(self):
         return len(self.id)
+
+    @property
+    def held(self):
+        """(3) whether the box ends the picture along a direction: where it is periodic, or ends at walls."""
+        return self.periodic | self.walls.end()
 
     @property
     def dimensions(self):
@@ -60,6 +69,9 @@ class Trajectory:
         self.times = self._read(lambda: self._rods["position/time"][()])
         if len(self.steps) == 0:
             raise Refusal(self.path, "it has no frame")
+        run = Run(folder)
+        self.walls = walls_of(run.scene) if (folder / "resolved.toml").exists() else Walls()
+        self.fixed = self._read(lambda: self._fixed(run.fixed_rods))
 
     def __len__(self):
         return len(self.steps)
@@ -74,6 +86,17 @@ class Trajectory:
 
     def frame(self, k):
         return self._read(lambda: self._frame(k))
+
+    def _fixed(self, table):
+        """A frame of the rods that nothing moves, all with the id NO_ROD; None where there are none."""
+        if not table:
+            return None
+        def vectors(names):
+            return np.column_stack([table[name] for name in names])
+
+        count = len(table["x"])
+        return dataclasses.replace(self._frame(0), id=np.full(count, NO_ROD), centre=vectors("xyz"), image=np.zeros((count, 3), np.int32),
+                                   axis=vectors(("nx", "ny", "nz")), length=table["length"], diameter=table["diameter"], pressure=None)
 
     def _frame(self, k):
         rods = self._rods
@@ -101,7 +124,7 @@ class Trajectory:
         return Frame(step=int(self.steps[k]), time=float(self.times[k]), edges=edges, offset=offset,
                      periodic=np.array([word == "periodic" for word in boundary]), id=ids[rows],
                      centre=column("position", float), image=column("image", np.int32), axis=axis,
-                     length=length, diameter=diameter, pressure=pressure)
+                     length=length, diameter=diameter, pressure=pressure, walls=self.walls)
 
     def _read(self, action):
         try:

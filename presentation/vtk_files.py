@@ -1,7 +1,8 @@
 """VTK XML for ParaView: trajectory.pvd names one .vtp file a frame with its time; each rod is a line of two points.
 
 Arrays of lines: id, length, diameter, axis. Of points: radius, for tubes and spheres. view.py, run by ParaView, draws
-the rods as spherocylinders. Where the box changes, box.pvd names its edges likewise, one file a frame.
+the rods as spherocylinders. Where the box changes, box.pvd names its edges likewise, one file a frame. fixed.vtp holds rods that
+nothing moves, walls.vtp lines for the walls of the last frame.
 """
 
 import base64
@@ -10,8 +11,8 @@ import re
 import numpy as np
 
 MARK = "<!-- made by jostle export -->"
-COLLECTION, BOX, VIEW = "trajectory.pvd", "box.pvd", "view.py"
-OUR_NAMES = re.compile(r"(trajectory|box)\.pvd|view\.py|(frame|box)_\d{6,}\.vtp")
+COLLECTION, BOX, VIEW, FIXED, WALLS = "trajectory.pvd", "box.pvd", "view.py", "fixed.vtp", "walls.vtp"
+OUR_NAMES = re.compile(r"(trajectory|box)\.pvd|view\.py|(fixed|walls)\.vtp|(frame|box)_\d{6,}\.vtp")
 KINDS = {"f4": "Float32", "i8": "Int64"}
 
 VIEW_PROGRAM = '''# Draws the run in ParaView: Tools > Python Shell > Run Script, or paraview --script=view.py here.
@@ -23,21 +24,36 @@ rods = PVDReader(registrationName="rods", FileName=os.path.join(folder, "traject
 view = GetActiveViewOrCreate("RenderView")
 GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
 
-# Tubes, and balls at their ends: a scaled capsule would have the wrong caps.
-tubes = Tube(registrationName="cylinders", Input=rods, Scalars=["POINTS", "radius"], VaryRadius="By Absolute Scalar",
-             NumberofSides=20, Capping=0)
-balls = Glyph(registrationName="caps", Input=rods, GlyphType="Sphere")
-balls.GlyphMode = "All Points"
-balls.OrientationArray = ["POINTS", "No orientation array"]
-balls.ScaleArray = ["POINTS", "radius"]
-balls.ScaleFactor = 1.0  # set last: the others choose it anew
-balls.GlyphType.Radius = 1.0
-balls.GlyphType.ThetaResolution = balls.GlyphType.PhiResolution = 20
-for part in (tubes, balls):
-    shown = Show(part, view)
-    shown.ColorArrayName = [None, ""]
-    shown.DiffuseColor = shown.AmbientColor = [0.34, 0.55, 0.75]
-    shown.Specular = 0.3
+def spherocylinders(source, name, colour):
+    """Tubes, and balls at their ends: a scaled capsule would have the wrong caps."""
+    tubes = Tube(registrationName=name + " cylinders", Input=source, Scalars=["POINTS", "radius"], VaryRadius="By Absolute Scalar",
+                 NumberofSides=20, Capping=0)
+    balls = Glyph(registrationName=name + " caps", Input=source, GlyphType="Sphere")
+    balls.GlyphMode = "All Points"
+    balls.OrientationArray = ["POINTS", "No orientation array"]
+    balls.ScaleArray = ["POINTS", "radius"]
+    balls.ScaleFactor = 1.0  # set last: the others choose it anew
+    balls.GlyphType.Radius = 1.0
+    balls.GlyphType.ThetaResolution = balls.GlyphType.PhiResolution = 20
+    for part in (tubes, balls):
+        shown = Show(part, view)
+        shown.ColorArrayName = [None, ""]
+        shown.DiffuseColor = shown.AmbientColor = colour
+        shown.Specular = 0.3
+
+
+def file_of(name):
+    return XMLPolyDataReader(registrationName=name, FileName=[os.path.join(folder, name + ".vtp")])
+
+
+spherocylinders(rods, "rods", [0.34, 0.55, 0.75])
+if os.path.exists(os.path.join(folder, "fixed.vtp")):
+    spherocylinders(file_of("fixed"), "fixed", [0.45, 0.45, 0.45])
+if os.path.exists(os.path.join(folder, "walls.vtp")):
+    walls = Show(file_of("walls"), view)
+    walls.ColorArrayName = [None, ""]
+    walls.AmbientColor = walls.DiffuseColor = [0.16, 0.2, 0.26]
+    walls.LineWidth = 3.0
 {box}
 outline = Show(box, view)
 outline.Representation = "Outline"
@@ -75,6 +91,11 @@ def write(folder, trajectory):
             (folder / name_of("box", number)).write_text(box_text(of_frame), encoding="ascii")
         write_collection(folder / BOX, "box", times)
         box = CHANGING_BOX
+    if trajectory.fixed:
+        (folder / FIXED).write_text(frame_text(trajectory.fixed), encoding="ascii")
+    lines = trajectory.walls.lines(np.array(edges[-1]))
+    if len(lines):
+        (folder / WALLS).write_text(lines_text(lines, "", ""), encoding="ascii")
     (folder / VIEW).write_text(VIEW_PROGRAM.format(box=box), encoding="ascii")
 
 
@@ -95,11 +116,15 @@ def box_text(edges):
 
 
 def frame_text(frame):
-    count = len(frame)
-    return poly_text("Lines", frame.ends().reshape(-1, 3), np.arange(2 * count), 2 * np.arange(1, count + 1),
-                     array("radius", np.repeat(0.5 * frame.diameter, 2), "f4"),
-                     array("id", frame.id, "i8") + array("length", frame.length, "f4")
-                     + array("diameter", frame.diameter, "f4") + array("axis", frame.axis, "f4"))
+    return lines_text(frame.ends(), array("radius", np.repeat(0.5 * frame.diameter, 2), "f4"),
+                      array("id", frame.id, "i8") + array("length", frame.length, "f4")
+                      + array("diameter", frame.diameter, "f4") + array("axis", frame.axis, "f4"))
+
+
+def lines_text(ends, of_points, of_lines):
+    """A file of lines between two points each, (K, 2, 3)."""
+    count = len(ends)
+    return poly_text("Lines", ends.reshape(-1, 3), np.arange(2 * count), 2 * np.arange(1, count + 1), of_points, of_lines)
 
 
 def poly_text(kind, points, connectivity, offsets, of_points, of_cells):

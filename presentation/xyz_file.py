@@ -12,7 +12,8 @@ turning_z_to = of_the_package("gsd_frames").turning_z_to
 
 PROPERTIES = "species:S:1:pos:R:3:orientation:R:4:aspherical_shape:R:3:id:I:1"
 CREATOR = 'creator="jostle export"'
-ROW = "X" + " %.8g" * 10 + " %d"  # X: no chemical element, to readers that ask for one
+ROW = " %.8g" * 10 + " %d"
+ROD, FIXED = "X", "F"  # X: no chemical element, to readers that ask for one; F: of rods that nothing moves, whose id is -1
 
 
 def is_ours(path):
@@ -26,9 +27,12 @@ def is_ours(path):
 
 def write(path, trajectory):
     with open(path, "w", encoding="utf-8") as file:
+        fixed = trajectory.fixed
         for frame in trajectory:
-            file.write(f"{len(frame)}\n{comment(frame)}\n")
-            np.savetxt(file, rows(frame), fmt=ROW)
+            file.write(f"{len(frame) + (len(fixed) if fixed else 0)}\n{comment(frame)}\n")
+            np.savetxt(file, rows(frame), fmt=ROD + ROW)
+            if fixed:
+                np.savetxt(file, rows(fixed), fmt=FIXED + ROW)
 
 
 def comment(frame):

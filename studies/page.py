@@ -24,7 +24,7 @@ Is the pressure right, is the anisotropy of the stress, and what does a time ste
     studies/run page
 
 from runs of the program itself; one study alone by `studies/run NAME`, in a minute or less with `--quick` (self_propelled: half an hour). Each leaves its runs, a CSV, PNG, SVG and a
-verdict in studies/results/NAME, and exits 0 only if every check has passed. Steps of passive rods are solved to `solver.tolerance` = 1e-4 D, ten times the default, a three hundredth of what a step moves a rod. Rods have the default drag where a study names no other: `capsule`; those of versions before 23 November 2026, named with each study, had `finite_aspect_ratio` ([decision 0028](../decisions/0028-capsule-drag.md)). Mixtures, very long rods and the steps of swimmers: [beside the studies](beside_the_studies.md). References: [studies/reference](../../studies/reference/README.md).
+verdict in studies/results/NAME, and exits 0 only if every check has passed. Steps of passive rods are solved to `solver.tolerance` = 1e-4 D, ten times the default, a three hundredth of what a step moves a rod. Rods have the default drag where a study names no other: `capsule`; those of versions before 23 November 2026, named with each study, had `finite_aspect_ratio` ([decision 0028](../decisions/0028-capsule-drag.md)). Mixtures, very long rods and the steps of swimmers: [beside the studies](beside_the_studies.md). Walls, planes, forces, flow and pressure: [row by row](set_ups.md). References: [studies/reference](../../studies/reference/README.md).
 """
 
 # How a section begins: what the overview is made of.

@@ -14,7 +14,8 @@ AXES = "xyz"
 # Averages of summary.json that are one number, in the order in which people look for them.
 SCALARS = ("Z", "pressure", "pressure_collision", "pressure_active", "pressure_springs", "nematic_order", "anisotropy",
            "anisotropy_collision")
-TENSORS = ("stress", "stress_collision", "stress_orientation", "stress_springs", "stress_active")  # 3 x 3
+TENSORS = ("stress", "stress_collision", "stress_orientation", "stress_springs", "stress_active",
+           "stress_dipoles", "stress_thermal")  # 3 x 3
 TRIPLES = ("principal_stresses", "principal_stresses_collision")  # ascending
 AVERAGES = (*SCALARS, *(f"{name}_{k}" for name in TRIPLES for k in (1, 2, 3)),
             *(f"{name}_{a}{b}" for name in TENSORS for a in AXES for b in AXES))

@@ -95,7 +95,7 @@ export function lookBar(view, colouring) {
     view.forces = event.target.checked;
     view.show(view.frame);
   });
-  at(".box").hidden = !view.told.boxes.length;
+  at(".box").hidden = !view.told.boxes.length && !view.walls;
   at(".box input").addEventListener("change", (event) => {
     view.box = event.target.checked;
     view.moved();

@@ -30,12 +30,13 @@ async function showRods(figure) {
   const stage = figure.querySelector(".stage");
   const still = [...stage.children];
   const frames = await Frames.read(told.rods);
-  const contacts = told.contacts && (await Frames.read(told.contacts));
+  const beside = {};
+  for (const name of ["contacts", "walls", "fixed"]) if (told[name]) beside[name] = await Frames.read(told[name]);
   const colouring = new Colouring(told.colourings, told.map, frames);
   stage.append(canvas);
   let view;
   try {
-    view = new RodsView(canvas, told, frames, colouring, contacts);
+    view = new RodsView(canvas, told, frames, colouring, beside);
   } catch (reason) {
     canvas.remove();
     throw reason;

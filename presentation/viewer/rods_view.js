@@ -11,6 +11,8 @@ import { minus } from "viewer/vectors.js";
 const HEAD = [0.84, 0.3, 0.08];
 const EDGE = [118, 126, 136, 255];
 const FORCE = [196, 38, 46, 255];
+const WALL = [58, 68, 82, 255];
+const FIXED = [128, 130, 134, 255];
 const THIN = 0.3;               // of their diameter, that rods are drawn with while forces are shown
 const PALE = 150;               // of 255, that is added to their colours then
 const REST = 160;               // milliseconds without movement after which the picture is drawn finely
@@ -20,12 +22,16 @@ const MOST_PIXELS = 9e6;
 const PATIENCE = 700;           // milliseconds that the fine picture may take
 
 export class RodsView {
-  constructor(canvas, told, frames, colouring, contacts) {
-    Object.assign(this, { canvas, told, frames, colouring, contacts });
+  /** contacts, walls, fixed: lines and rods beside those that move, or undefined. */
+  constructor(canvas, told, frames, colouring, { contacts, walls, fixed }) {
+    Object.assign(this, { canvas, told, frames, colouring, contacts, walls });
     this.renderer = new Renderer(canvas);
     this.rods = Object.assign(this.renderer.batch(), { cut: true, heads: told.swim });
     this.lines = Object.assign(this.renderer.batch(), { cut: true });
     this.edges = this.renderer.batch();
+    this.outlines = this.renderer.batch();
+    this.obstacles = Object.assign(this.renderer.batch(), { cut: true });
+    if (fixed) place(this.obstacles, fixed, 0, this.told.fixed, FIXED);
     this.camera = new Camera(told.camera, told.seen, reach(told));
     this.slab = null;
     this.box = true;
@@ -42,15 +48,11 @@ export class RodsView {
     this.frame = frame;
     const { rods } = this.told;
     this.drawEdges();
+    if (this.walls) this.drawWalls();
     const thin = this.forces ? THIN : 1;
     const scale = { low: rods.low, span: rods.span, length: rods.length, diameter: rods.diameter.map((d) => d * thin) };
     this.rods.set(this.frames.instances(frame), scale);
-    if (this.contacts && this.forces) {
-      const { low, span, length, diameter } = this.told.contacts;
-      const instances = this.contacts.instances(frame);
-      this.lines.set(instances, { low, span, length, diameter });
-      this.lines.setColours(repeated(FORCE, this.contacts.counts[frame]));
-    }
+    if (this.contacts && this.forces) place(this.lines, this.contacts, frame, this.told.contacts, FORCE);
     this.recolour();
   }
 
@@ -84,11 +86,19 @@ export class RodsView {
     this.edges.setColours(repeated(EDGE, instances.length / STRIDE));
   }
 
+  /** Of the frame; one set stands for all where the box does not change. */
+  drawWalls() {
+    const frame = Math.min(this.frame, this.walls.length - 1);
+    if (frame === this.drawnWalls) return;
+    this.drawnWalls = frame;
+    place(this.outlines, this.walls, frame, this.told.walls, WALL);
+  }
+
   look() {
     const background = backgroundOf(this.canvas);
     const half = 0.5 * Math.hypot(...minus(...[...this.camera.extent].reverse()));
     return {
-      batches: [this.rods, ...(this.box && this.told.boxes.length ? [this.edges] : []), ...(this.forces ? [this.lines] : [])],
+      batches: [this.rods, this.obstacles, ...(this.box ? [this.edges, this.outlines] : []), ...(this.forces ? [this.lines] : [])],
       background,
       head: HEAD,
       slab: this.slab,
@@ -152,6 +162,12 @@ export class RodsView {
 function reach({ rods, boxes }) {
   const [longest, thickest] = [rods.length, rods.diameter].map(([least, range]) => least + range);
   return boxes.length ? 0.3 * longest + 0.5 * thickest : 0.5 * thickest;
+}
+
+/** Fills a batch with what a frame of these lines, or rods, has. */
+function place(batch, frames, frame, { low, span, length, diameter }, colour) {
+  batch.set(frames.instances(frame), { low, span, length, diameter });
+  batch.setColours(repeated(colour, frames.counts[frame]));
 }
 
 function repeated(colour, count) {

@@ -3,9 +3,11 @@ this file, too, without the extension.
 
 A shape belongs to a type there, so rods of one length and diameter are a type. Where a run has more than 64 kinds,
 lengths and diameters are drawn in classes of equal width; the exact ones stand in log/particles/length and particles/diameter.
+Rods that nothing moves follow those that move, as types "fixed ...", with the id -1.
 """
 
 import contextlib
+import dataclasses
 import os
 
 import gsd.fl
@@ -14,6 +16,7 @@ import numpy as np
 
 APPLICATION = "jostle export"
 MOST_TYPES = 64
+FIXED = "fixed "     # types of rods that nothing moves begin so
 MOST_DIAMETERS = 8  # where there are too many kinds of rods; leaves 8 classes of length
 
 
@@ -35,14 +38,37 @@ def name_in_ascii(path, how):
         os.close(descriptor)
 
 
-def write(path, trajectory):
-    """Writes every frame; float32, to look at and to analyse, never to go on from."""
+def write(path, trajectory, fixed=None):
+    """Writes every frame; float32, to look at and to analyse, never to go on from. fixed: a frame of rods that nothing moves."""
     kinds = Kinds(trajectory)
+    kinds_of_fixed = Kinds([fixed], FIXED) if fixed else None
     with (name_in_ascii(path, os.O_RDWR) as name,
           gsd.fl.open(name=name, mode="wb", application=APPLICATION, schema="hoomd", schema_version=[1, 4]) as file):
         frames = gsd.hoomd.HOOMDTrajectory(file)
         for frame in trajectory:
-            frames.append(snapshot(frame, kinds))
+            made = snapshot(frame, kinds)
+            if fixed:
+                append_fixed(made, snapshot(wrapped(fixed), kinds_of_fixed))
+            frames.append(made)
+
+
+def wrapped(frame):
+    """The same rods within the box along periodic directions, where any copy stands for all."""
+    inside = np.mod(frame.centre, np.where(frame.periodic, frame.edges, np.inf))
+    return dataclasses.replace(frame, centre=np.where(frame.periodic, inside, frame.centre))
+
+
+def append_fixed(made, fixed):
+    """Adds the rods of a snapshot to another one, of the same box."""
+    rods, more = made.particles, fixed.particles
+    made.configuration.box[:3] = np.maximum(made.configuration.box[:3], fixed.configuration.box[:3])
+    more.typeid = more.typeid + len(rods.types)
+    rods.types, rods.type_shapes = rods.types + more.types, rods.type_shapes + more.type_shapes
+    for name in ("typeid", "diameter", "position", "image", "orientation"):
+        setattr(rods, name, np.concatenate((getattr(rods, name), getattr(more, name))))
+    rods.N += more.N
+    for name in ("particles/length", "particles/id"):
+        made.log[name] = np.concatenate((made.log[name], fixed.log[name].astype(made.log[name].dtype)))
 
 
 def turning_z_to(axis):
@@ -107,7 +133,7 @@ def shape_of(length, diameter):
 class Kinds:
     """The types of all frames of a trajectory: classes of length times classes of diameter."""
 
-    def __init__(self, trajectory):
+    def __init__(self, trajectory, prefix=""):
         lengths = diameters = np.empty(0)
         for frame in trajectory:
             lengths, diameters = _joined(lengths, frame.length), _joined(diameters, frame.diameter)
@@ -116,7 +142,7 @@ class Kinds:
             lengths = _classes(lengths, MOST_TYPES // len(diameters))
         self.lengths, self.diameters = lengths, diameters
         kinds = [(float(length), float(diameter)) for length in lengths for diameter in diameters]
-        self.names = [f"rod {length:.4g} x {diameter:.4g}" for length, diameter in kinds]
+        self.names = [f"{prefix}rod {length:.4g} x {diameter:.4g}" for length, diameter in kinds]
         self.shapes = [shape_of(length, diameter) for length, diameter in kinds]
 
     def of(self, length, diameter):

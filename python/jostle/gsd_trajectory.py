@@ -24,12 +24,14 @@ class GsdTrajectory(Sequence):
     """Frames of a GSD file, read one by one when they are asked for; the box counts as periodic in all directions.
 
     Rods lie along the z axis of their own; lengths come from log/particles/length, else from shapes with two vertices, else they are 0;
-    ids from log/particles/id, else they are 0, 1, 2, ...; times from log/time, else they are the steps.
+    ids from log/particles/id, else they are 0, 1, 2, ...; times from log/time, else they are the steps. Rods of a type "fixed ...", which
+nothing moves, are left out.
     """
 
     def __init__(self, path):
         hoomd = require_gsd(path)
-        from .gsd_frames import name_in_ascii
+        from .gsd_frames import FIXED, name_in_ascii
+        self._fixed = FIXED
         self.path = Path(path)
         try:
             with name_in_ascii(self.path, os.O_RDONLY) as name:
@@ -53,7 +55,9 @@ class GsdTrajectory(Sequence):
             refuse("", "", f"frame {k} has a box that leans otherwise than along x, as a flow u(y) makes it", file=str(self.path))
         offset = float(shot.configuration.box[3]) * edges[1]
         ids = np.asarray(log.get("particles/id", np.arange(count)), np.uint64)
+        moves = ~np.char.startswith(np.array(rods.types, str)[rods.typeid], self._fixed)
         order = np.argsort(ids, kind="stable")
+        order = order[moves[order]]
         time = float(np.ravel(log.get("time", shot.configuration.step))[0])
         return Frame(int(shot.configuration.step), time, edges, (True, True, True), ids[order],
                      (np.asarray(rods.position, float) + 0.5 * (edges + [offset, 0, 0]))[order], _axes(rods.orientation)[order],

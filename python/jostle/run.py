@@ -3,6 +3,7 @@
 from functools import cached_property
 
 from ._jostle import refuse
+from .profile import profile_of
 from .run_folder import RunFolder, structured
 from .scene import Scene
 from .simulation import Simulation
@@ -83,6 +84,41 @@ class Run(RunFolder):
     def field(self):
         """field.csv, means over cells of a grid, as a structured array; None without `output.field_every`."""
         return self._table_if_any("field.csv")
+
+    def profile(self, axis, after=0.0):
+        """Density and stress across the box, as across a slit: means over layers and over the fields of the run.
+
+        Parameters
+        ----------
+        axis : "x", "y" or "z"
+        after : float
+            Fields that end later than this time are averaged over.
+
+        Returns
+        -------
+        (layers) structured array
+            x, y or z, the middle of a layer; number_density; stress_xx ... stress_zz, the whole stress: n kT + collision +
+            orientation; and of each a column with `_error`, its standard error, nan where the run holds too few fields. In a slit
+            in equilibrium the stress along the normal is the wall pressure in every layer but those at the walls, where it is
+            smoothed over a cell.
+
+        Raises
+        ------
+        InputError
+            Without `output.field_every`, for another axis, where no field is late enough, and for runs with springs or torques, whose
+            stress fields do not hold, or a kT that changes.
+        """
+        if axis not in ("x", "y", "z"):
+            refuse("axis", repr(axis), "is none", '"x", "y" or "z"')
+        tables = self.scene_tables
+        if self.field is None:
+            refuse("output.field_every", "0", "keeps no field that a profile could be made of", suggestion="Set it in the scene, and run anew")
+        if tables.get("springs", {}).get("file") or tables.get("forces", {}).get("alignment_energy") or tables.get("schedule", {}).get("kT"):
+            refuse("", "", "fields lack the stress of springs and torques, and a kT that changes", file=str(self.folder))
+        if not (self.field["time"] > after).any():
+            refuse("after", f"{after:g}", "leaves no field", f"less than {self.field['time'].max():g}")
+        kT = tables["fluid"]["kT"] if tables.get("motion", {}).get("brownian", True) else 0.0
+        return profile_of(self.field, axis, kT, tables["box"].get("dimensions", 3), after)
 
     @property
     def trajectory(self):

@@ -3,8 +3,10 @@
 import json
 import signal
 
-from jostle_command import (DONE, RODS, STOPPED, changed, column, command, finish, kill, require_same_results, rows_of, start,
-                            wait_until, with_steps, write_scene)
+import pytest
+
+from jostle_command import (DONE, RODS, STOPPED, changed, column, command, finish, kill, require_one_line, require_same_results, rows_of,
+                            start, stop_and_kill, wait_until, with_steps, write_scene)
 
 PRESSED = changed(RODS, pressure={"external": 0.8})
 
@@ -32,3 +34,49 @@ def test_a_limit_ends_the_run(tmp_path):
     folder = finish(tmp_path)
     assert column(folder / "series.csv", "phi")[-1] > 0.26
     assert json.loads((folder / "summary.json").read_text())["rods"] == 50
+
+
+SLIT = changed(RODS, box={"volume_fraction": None, "edges": [8.0, 8.0, 8.0], "periodic": [True, True, False]},
+               walls={"faces": [False, False, True]})
+PISTON = changed(SLIT, pressure={"external": 0.8, "coupling": "piston"})
+COMPRESSED = changed(PRESSED, fluid={"kT": 0.0}, time={"step": 0.5})
+
+
+@pytest.mark.parametrize("scene", [PISTON, COMPRESSED], ids=["piston", "compression"])
+def test_pistons_and_compression_go_on_to_the_same_bits(tmp_path, scene):
+    scene = changed(with_steps(scene, 300), output={"series_every": 1, "checkpoint_every": 40})
+    write_scene(tmp_path / "whole", scene)
+    whole = finish(tmp_path / "whole")
+    assert len(set(column(whole / "series.csv", "volume"))) > 290
+    edges = set(column(whole / "series.csv", "edge_x"))
+    assert (len(edges) == 1) == (scene is not COMPRESSED and "walls" in scene)
+    folder = tmp_path / "parts"
+    write_scene(folder, scene)
+    stop_and_kill(folder, (60, signal.SIGTERM), (150, signal.SIGKILL))
+    require_same_results(finish(folder, threads=2), whole, same_command=False)
+
+
+def test_what_a_compression_tells(tmp_path):
+    write_scene(tmp_path, with_steps(COMPRESSED, 300))
+    summary = json.loads((finish(tmp_path) / "summary.json").read_text())
+    last = summary["pressure_control"]["last"]
+    assert last["volume_fraction"] > 0.5 and 0.5 < last["pressure_over_external"] < 1.01 and last["contacts_per_rod"] > 4.0
+    assert "Z" not in summary["pressure_control"] and summary["checks"] == {}
+    assert "the box is compressed" in summary["equilibrium"]["in_words"] and summary["pressure"]["standard_error"] is None
+
+
+@pytest.mark.parametrize("scene, told", [
+    (changed(SLIT, pressure={"external": 0.8}), 'coupling = "piston"'),
+    (changed(PRESSED, pressure={"coupling": "piston"}), "there are 0 pairs of them"),
+    (changed(PISTON, box={"periodic": [True, False, False]}, walls={"faces": [False, True, True]}), "there are 2 pairs of them"),
+    (changed(PISTON, box={"periodic": [True, False, False]}), "nothing holds the rods"),
+    (changed(COMPRESSED, pressure={"coupling": "orthogonal"}), "needs thermal motion"),
+    (changed(COMPRESSED, solver={"method": "projected_sor"}), "cannot solve for a box that all contacts open"),
+    (changed(COMPRESSED, forces={"alignment_energy": 1.0}), "[forces] do"),
+    (changed(COMPRESSED, growth={"rate": 1.0, "division_length": 4.0}), "cells that grow"),
+])
+def test_what_does_not_go_together(tmp_path, scene, told):
+    write_scene(tmp_path, scene)
+    for name in ("check", "run"):
+        require_one_line(command(tmp_path, name, "scene.toml"), told)
+    assert not (tmp_path / "scene.run").exists()

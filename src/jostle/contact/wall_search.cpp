@@ -1,6 +1,7 @@
 #include "jostle/contact/wall_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "jostle/contact/wall_contacts.hpp"
 
@@ -10,6 +11,16 @@ namespace {
 
 void add(const Contact& contact, Contacts& contacts) {
     contacts.push_back(contact, {0, 0, 0}, ContactFeature::end_of_j);
+}
+
+/// Whether no end of the rod comes within this range of the wall: from the centre, which is cheaper than from each end.
+/// An end is as much nearer to a plane as the axis is inclined, and to a container at most half a length.
+bool is_far(const Wall& wall, std::uint32_t row, double range, const StepGeometry& step) {
+    const double half = 0.5 * step.rods.length[row], radius = 0.5 * step.rods.diameter[row];
+    const double inclined =
+        wall.shape == Wall::Shape::plane ? std::fabs(dot(step.known.axis[row], wall.direction)) : 1.0;
+    const double rounding = 1e-9 * (half + radius);
+    return wall.distance(step.known.centre[row]) - half * inclined - radius - rounding > range;
 }
 
 double gap_after_known_motion(const Wall& wall, std::uint32_t row, double arm, const StepGeometry& step) {
@@ -31,7 +42,8 @@ double WallSearch::find(const StepGeometry& step, Contacts& contacts) {
 void WallSearch::look_at(std::uint32_t row, const StepGeometry& step, FoundContacts& found) {
     const Rods& rods = step.rods;
     const double range = std::max(step.shift.part[row] + step.ranges.activation_margin, step.ranges.range);
-    for (const Wall& wall : walls_)
+    for (const Wall& wall : walls_) {
+        if (is_far(wall, row, range + step.displacement[row], step)) continue;
         for (const double arm : wall_arms(step.box.walls(), rods.length[row])) {
             const double after = gap_after_known_motion(wall, row, arm, step);
             if (after - step.displacement[row] > range) continue;
@@ -42,6 +54,7 @@ void WallSearch::look_at(std::uint32_t row, const StepGeometry& step, FoundConta
             known_[row] = static_cast<std::uint16_t>(known_[row] | 1U << bit_of(wall, arm));
             add(contact, found.contacts);
         }
+    }
 }
 
 Contacts WallSearch::violated(const StepGeometry& step, const EndConfiguration& end) {
@@ -56,7 +69,8 @@ Contacts WallSearch::violated(const StepGeometry& step, const EndConfiguration& 
 void WallSearch::look_again_at(std::uint32_t row, double farthest, const StepGeometry& step,
                                const EndConfiguration& end, Contacts& found) {
     const Rods& rods = step.rods;
-    for (const Wall& wall : walls_)
+    for (const Wall& wall : walls_) {
+        if (is_far(wall, row, step.shift.part[row] + farthest, step)) continue;
         for (const double arm : wall_arms(step.box.walls(), rods.length[row])) {
             const double after = gap_after_known_motion(wall, row, arm, step);
             if (after - farthest > step.shift.part[row] || is_contact(row, wall, arm)) continue;
@@ -68,6 +82,7 @@ void WallSearch::look_again_at(std::uint32_t row, double farthest, const StepGeo
             known_[row] = static_cast<std::uint16_t>(known_[row] | 1U << bit_of(wall, arm));
             add(contact, found);
         }
+    }
 }
 
 }  // namespace jostle

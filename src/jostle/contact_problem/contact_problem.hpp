@@ -17,14 +17,14 @@ namespace jostle {
 class ContactProblem {
 public:
     /// `b`: (contacts) the velocity of each gap without forces; empty where forces are not sought. `compliance`: kappa
-    /// of the DelassusOperator. `start`: (contacts) forces to begin from; empty: from 0. Holds references to rods,
-    /// mobility and domain.
+    /// of the DelassusOperator. `start`: (contacts) forces to begin from; empty: from 0. `box`: one that forces open.
+    /// Holds references to rods, mobility and domain.
     ContactProblem(const Rods& rods, const MobilityOperator& mobility, Contacts contacts, std::vector<double> b,
                    double time_step, double compliance = 0.0, std::vector<double> start = {},
-                   const Domain& domain = Domain::whole())
+                   const Domain& domain = Domain::whole(), const BoxColumn& box = {})
         : contacts_(std::move(contacts)),
           contact_matrix_(contacts_, rods.id, included(mobility), domain.owned_of(rods.size())),
-          matrix_(contact_matrix_, rods, mobility, compliance),
+          matrix_(contact_matrix_, rods, mobility, compliance, box),
           domain_(domain),
           b_(std::move(b)),
           start_(std::move(start)),
@@ -68,6 +68,7 @@ public:
     void complete(ContactSolution& solution) const {
         solution.resize(contact_matrix_);
         matrix_.velocities(solution.gamma, solution.forces, solution.velocities);
+        solution.box_rate = matrix_.box_rate(solution.gamma);
     }
 
     /// The contacts, once nothing else of the problem is needed any more.

@@ -14,6 +14,7 @@ struct ContactSolution {
     std::vector<std::uint32_t> rods;          ///< (n) rows
     std::vector<ContactForce> forces;         ///< (n) D gamma
     std::vector<ContactVelocity> velocities;  ///< (n) M D gamma
+    double box_rate = 0.0;                    ///< at which forces open the box (BoxColumn)
 
     /// As many rods and contacts as the matrix has; new ones are 0.
     void resize(const ContactMatrix& contact_matrix) {

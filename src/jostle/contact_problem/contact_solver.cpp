@@ -1,5 +1,6 @@
 #include "jostle/contact_problem/contact_solver.hpp"
 
+#include "jostle/contact_problem/near_first.hpp"
 #include "jostle/contact_problem/projected_sor.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/lcp/adaptive_bb.hpp"
@@ -50,15 +51,19 @@ private:
 
 std::unique_ptr<ContactSolver> make_contact_solver(const ContactProblem& problem, SolverMethod method,
                                                    const LcpSettings& settings) {
-    const bool couples_rods = problem.matrix().couples_rods();
+    const bool couples_rods = problem.matrix().couples_rods(), opens_box = problem.matrix().opens_box();
+    if (method == SolverMethod::automatic && couples_rods && !opens_box && problem.matrix().mobility().among({}))
+        return std::make_unique<NearFirst>(problem, settings);
+    const bool couples_all = couples_rods || opens_box;
     if (method == SolverMethod::automatic)
-        method = couples_rods ? SolverMethod::adaptive_bb : SolverMethod::projected_sor;
+        method = couples_all ? SolverMethod::adaptive_bb : SolverMethod::projected_sor;
     if (method != SolverMethod::projected_sor) return std::make_unique<LcpContactSolver>(problem, method, settings);
-    if (couples_rods)
-        throw InputError({.key = "solver.method",
-                          .value = "\"projected_sor\"",
-                          .problem = "this method needs a mobility that does not couple rods",
-                          .allowed = "\"auto\", \"adaptive_bb\", \"bbpgd\", \"apgd\", \"minimum_map_newton\""});
+    if (couples_all)
+        throw InputError(
+            {.key = "solver.method",
+             .value = "\"projected_sor\"",
+             .problem = "this method needs a mobility that does not couple rods, and a box that forces do not open",
+             .allowed = "\"auto\", \"adaptive_bb\", \"bbpgd\", \"apgd\", \"minimum_map_newton\""});
     return std::make_unique<ProjectedSor>(problem, settings);
 }
 

@@ -58,10 +58,11 @@ protected:
     bool at_solution_ = false, at_near_candidate_ = false;
 };
 
-/// The solver of a method; "auto" is projected SOR where the mobility does not couple rods, else adaptive
-/// Barzilai-Borwein descent. Holds references to problem and settings.
+/// The solver of a method; "auto" is projected SOR where neither the mobility nor a box that opens couples rods;
+/// NearFirst where the mobility couples them and has a near part; else adaptive Barzilai-Borwein descent. Holds
+/// references to problem and settings.
 ///
-/// Throws InputError if projected SOR is asked for with a mobility that couples rods.
+/// Throws InputError if projected SOR is asked for where they do.
 std::unique_ptr<ContactSolver> make_contact_solver(const ContactProblem& problem, SolverMethod method,
                                                    const LcpSettings& settings);
 

@@ -5,8 +5,8 @@
 namespace jostle {
 
 DelassusOperator::DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods,
-                                   const MobilityOperator& mobility, double compliance)
-    : contact_matrix_(contact_matrix), all_rods_(rods), mobility_(mobility), compliance_(compliance) {
+                                   const MobilityOperator& mobility, double compliance, const BoxColumn& box)
+    : contact_matrix_(contact_matrix), all_rods_(rods), mobility_(mobility), compliance_(compliance), box_(box) {
     extend();
 }
 
@@ -23,6 +23,18 @@ void DelassusOperator::extend() {
         const std::size_t l = known_contacts + k;
         diagonal_[l] = (1.0 + compliance_) * relative_mobility_of(l);
     });
+    if (!opens_box()) return;
+    column_.resize(contact_matrix_.size());
+    parallel_for(diagonal_.size() - known_contacts, [&](std::size_t k) {
+        const std::size_t l = known_contacts + k;
+        column_[l] = box_.of(contact_matrix_.contacts().contact[l], all_rods_);
+        diagonal_[l] += box_.mobility * column_[l] * column_[l];
+    });
+}
+
+double DelassusOperator::box_rate(std::span<const double> gamma) const {
+    if (!opens_box()) return 0.0;
+    return box_.mobility * parallel_sum<double>(gamma.size(), [&](std::size_t l) { return column_[l] * gamma[l]; });
 }
 
 /// (D^T M D)_ll
@@ -44,6 +56,10 @@ void DelassusOperator::apply(std::span<const double> gamma, std::span<double> ra
 void DelassusOperator::rates(std::span<const ContactVelocity> velocities, std::span<const double> gamma,
                              std::span<double> rates) const {
     contact_matrix_.apply_transpose(velocities, rates);
+    if (opens_box()) {
+        const double rate = box_rate(gamma);
+        parallel_for(rates.size(), [&](std::size_t l) { rates[l] += rate * column_[l]; });
+    }
     if (!compliant()) return;
     parallel_for(rates.size(), [&](std::size_t l) { rates[l] += compliance(l) * gamma[l]; });
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "jostle/contact/contact_matrix.hpp"
+#include "jostle/contact_problem/box_column.hpp"
 #include "jostle/lcp/linear_operator.hpp"
 #include "jostle/mobility/mobility.hpp"
 
@@ -9,11 +10,12 @@ namespace jostle {
 /// A = D^T M D (theory, eq. 2.4): gap velocities caused by contact forces. The place where contact and mobility meet.
 ///
 /// With a compliance kappa it is D^T M D + kappa diag(D^T M D) (theory, eq. 3.5): positive definite. Never formed: one
-/// application is a gather over the rods that have contacts, the mobility, and a pass over contacts. Holds references.
+/// application is a gather over the rods that have contacts, the mobility, and a pass over contacts. A box that opens
+/// adds the square of its column. Holds references.
 class DelassusOperator final : public LinearOperator {
 public:
     DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods, const MobilityOperator& mobility,
-                     double compliance = 0.0);
+                     double compliance = 0.0, const BoxColumn& box = {});
 
     /// Takes in what the contact matrix has been extended by.
     void extend();
@@ -32,6 +34,11 @@ public:
 
     std::span<const MobileRod> rods() const { return rods_; }  ///< (n) those with contacts
     bool couples_rods() const { return mobility_.couples_rods(); }
+    const MobilityOperator& mobility() const { return mobility_; }
+    bool opens_box() const { return box_.mobility > 0.0; }
+
+    /// The rate of the box: m w.gamma.
+    double box_rate(std::span<const double> gamma) const;
 
     /// A gamma, from M D gamma.
     void rates(std::span<const ContactVelocity> velocities, std::span<const double> gamma,
@@ -49,8 +56,10 @@ private:
     const Rods& all_rods_;
     const MobilityOperator& mobility_;
     double compliance_;
+    BoxColumn box_;
     std::vector<MobileRod> rods_;
     std::vector<double> diagonal_;
+    std::vector<double> column_;                       ///< (contacts) w; (0) where the box stays
     mutable std::vector<ContactForce> forces_;         ///< (n) scratch
     mutable std::vector<ContactVelocity> velocities_;  ///< (n) scratch
 };

@@ -20,8 +20,9 @@ struct Accuracy {
     int spread_points;
     double fineness;
 };
-constexpr std::array<Accuracy, 6> accuracies{{{5e-3, 2.0, 4, 1.0},
+constexpr std::array<Accuracy, 7> accuracies{{{5e-3, 2.0, 4, 1.0},
                                               {2e-3, 2.3, 5, 1.0},
+                                              {1e-3, 2.45, 5, 1.05},
                                               {2e-4, 2.6, 6, 1.1},
                                               {2e-5, 3.1, 7, 1.25},
                                               {2e-6, 3.5, 9, 1.3},

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "jostle/parallel/parallel_for.hpp"
 
@@ -10,12 +11,13 @@ namespace jostle {
 namespace {
 
 using std::numbers::pi;
-using Complex = std::complex<double>;
 
-/// (I - kk/k^2) v
-WaveVector solenoidal(const Vec3& k, double k_squared, const WaveVector& v) {
-    const Complex along = (k.x * v[0] + k.y * v[1] + k.z * v[2]) / k_squared;
-    return {v[0] - along * k.x, v[1] - along * k.y, v[2] - along * k.z};
+/// size (I - kk/k^2) v
+WaveVector solenoidal(double size, const Vec3& k, const WaveVector& v) {
+    const GridVector wave(k);
+    const double inverse = 1.0 / squared_norm(k);
+    const auto part = [&](const GridVector& of) { return size * (of - ((wave * of).sum() * inverse) * wave); };
+    return {part(v.real()), part(v.imag())};
 }
 
 }  // namespace
@@ -39,47 +41,41 @@ WaveFactors::WaveFactors(const Vec3& edges, const EwaldSplit& split, double spre
 }
 
 FarField::FarField(const Rods& rods, const Box& box, const RodBlobs& blobs, const EwaldSplit& split,
-                   const WaveFactors& factors)
-    : blobs_(rods, box, blobs, split), grid_(split.grid), factors_(factors) {}
+                   const WaveFactors& factors, std::shared_ptr<FourierGrid> grid)
+    : blobs_(rods, box, blobs, split), grid_(std::move(grid)), factors_(factors) {}
 
 /// From the forces on the grid to the flow there.
 void FarField::solve() const {
-    grid_.forward();
-    const auto [nx, ny, nz] = grid_.points();
-    const std::size_t wx = grid_.waves_along_x(), rows = ny;
+    grid_->forward();
+    const auto [nx, ny, nz] = grid_->points();
+    const std::size_t wx = grid_->waves_along_x(), rows = ny;
     parallel_for_parts(nz, [&](std::size_t z) {
         for (std::size_t y = 0; y < rows; ++y)
             for (std::size_t x = 0; x < wx; ++x) {
-                WaveVector& v = grid_.waves[(z * rows + y) * wx + x];
+                WaveVector& v = grid_->waves[(z * rows + y) * wx + x];
                 const double multiplier = factors_.factor(x, y, z);
-                if (multiplier == 0.0) {
-                    v = {};
-                    continue;
-                }
-                const Vec3 k = factors_.wave(x, y, z);
-                v = solenoidal(k, squared_norm(k), v);
-                for (Complex& component : v) component *= multiplier;
+                v = multiplier == 0.0 ? WaveVector{} : solenoidal(multiplier, factors_.wave(x, y, z), v);
             }
     });
-    grid_.backward();
+    grid_->backward();
 }
 
 void FarField::add_flow(std::span<const LineVector> forces, std::span<LineVector> velocities) const {
-    blobs_.spread(forces, grid_.field);
+    blobs_.spread(forces, grid_->field);
     solve();
-    blobs_.gather(grid_.field, velocities);
+    blobs_.gather(grid_->field, velocities);
 }
 
-void FarField::add_axial_flow(const AxialStresslet& stresslet, std::span<LineVector> velocities) const {
-    blobs_.spread(stresslet, grid_.field);
+void FarField::add_axial_flow(const AxialStresslets& stresslets, std::span<LineVector> velocities) const {
+    blobs_.spread(stresslets, grid_->field);
     solve();
-    blobs_.gather(grid_.field, velocities);
+    blobs_.gather(grid_->field, velocities);
 }
 
 /// A wave and its mirror image share their six normal numbers: those of the place of the first of the two.
 void FarField::draw(const RandomKey& key, double scale) const {
-    const auto [nx, ny, nz] = grid_.points();
-    const std::size_t wx = grid_.waves_along_x(), rows = ny, planes = nz;
+    const auto [nx, ny, nz] = grid_->points();
+    const std::size_t wx = grid_->waves_along_x(), rows = ny, planes = nz;
     parallel_for_parts(planes, [&](std::size_t z) {
         std::vector<std::uint64_t> ids(wx);
         std::vector<Normals> normals(wx);
@@ -92,20 +88,16 @@ void FarField::draw(const RandomKey& key, double scale) const {
             if (is_image) ids[0] = image;
             fill_normals(key, ids, normals);
             for (std::size_t x = 0; x < wx; ++x) {
-                WaveVector& v = grid_.waves[first + x];
+                WaveVector& v = grid_->waves[first + x];
                 const double multiplier = factors_.factor(x, y, z);
                 if (multiplier == 0.0) {
-                    v = {};
+                    v = WaveVector{};
                     continue;
                 }
                 const double sign = x == 0 && is_image ? -1.0 : 1.0;
                 const Normals& xi = normals[x];
-                const Vec3 k = factors_.wave(x, y, z);
-                v = solenoidal(
-                    k, squared_norm(k),
-                    {Complex{xi[0], sign * xi[1]}, Complex{xi[2], sign * xi[3]}, Complex{xi[4], sign * xi[5]}});
-                const double size = scale * std::sqrt(0.5 * multiplier);
-                for (Complex& component : v) component *= size;
+                v = solenoidal(scale * std::sqrt(0.5 * multiplier), factors_.wave(x, y, z),
+                               {GridVector(Vec3{xi[0], xi[2], xi[4]}), sign * GridVector(Vec3{xi[1], xi[3], xi[5]})});
             }
         }
     });
@@ -113,8 +105,8 @@ void FarField::draw(const RandomKey& key, double scale) const {
 
 void FarField::add_square_root(const RandomKey& key, double scale, std::span<LineVector> velocities) const {
     draw(key, scale);
-    grid_.backward();
-    blobs_.gather(grid_.field, velocities);
+    grid_->backward();
+    blobs_.gather(grid_->field, velocities);
 }
 
 }  // namespace jostle

@@ -37,14 +37,15 @@ private:
 /// (I - kk/k^2) exp(-k^2 spread) H(k)/(viscosity V k^2), H = (1 + q) exp(-q), q = k^2/(4 splitting^2).
 class FarField {
 public:
-    /// Holds references to rods, blobs and factors.
+    /// `grid`: of the split's points; what stands on it is overwritten by every call. Holds references to rods, blobs
+    /// and factors.
     FarField(const Rods& rods, const Box& box, const RodBlobs& blobs, const EwaldSplit& split,
-             const WaveFactors& factors);
+             const WaveFactors& factors, std::shared_ptr<FourierGrid> grid);
 
     /// velocities += M_far forces, (N) each.
     void add_flow(std::span<const LineVector> forces, std::span<LineVector> velocities) const;
     /// velocities += those of the rods in the flow of stresslets on all rods.
-    void add_axial_flow(const AxialStresslet& stresslet, std::span<LineVector> velocities) const;
+    void add_axial_flow(const AxialStresslets& stresslets, std::span<LineVector> velocities) const;
     /// velocities += scale B xi, B B^T = M_far as it is applied; xi are numbers of the waves.
     void add_square_root(const RandomKey& key, double scale, std::span<LineVector> velocities) const;
 
@@ -53,7 +54,7 @@ private:
     void draw(const RandomKey& key, double scale) const;
 
     GridBlobs blobs_;
-    mutable FourierGrid grid_;
+    std::shared_ptr<FourierGrid> grid_;
     const WaveFactors& factors_;
 };
 

@@ -1,6 +1,5 @@
 #include "jostle/hydrodynamics/fourier_grid.hpp"
 
-#include <algorithm>
 #include <kissfft/kissfft.hh>
 
 #include "jostle/parallel/parallel_for.hpp"
@@ -9,11 +8,11 @@ namespace jostle {
 
 namespace {
 
-using Complex = std::complex<double>;
-using Transform = kissfft<double>;
+using Transform = kissfft<GridVector>;
 
-/// So many columns are copied together: neighbours in memory.
-constexpr std::size_t columns_together = 4;
+WaveVector times_i(const WaveVector& c) {
+    return {-c.imag(), c.real()};
+}
 
 }  // namespace
 
@@ -23,18 +22,11 @@ void FourierGrid::transform_columns(bool inverse, std::size_t planes, std::size_
                                     std::size_t stride) {
     const Transform transform(length, inverse);
     parallel_for_parts(planes, [&](std::size_t plane) {
-        std::vector<Complex> before(3 * columns_together * length), after(before.size());
-        for (std::size_t first = 0; first < waves_along_x(); first += columns_together) {
-            const std::size_t lines = 3 * std::min(columns_together, waves_along_x() - first);
-            Complex* const corner = waves[plane * plane_stride + first].data();
-            for (std::size_t k = 0; k < length; ++k)
-                for (std::size_t line = 0; line < lines; ++line)
-                    before[line * length + k] = corner[3 * k * stride + line];
-            for (std::size_t line = 0; line < lines; ++line)
-                transform.transform(&before[line * length], &after[line * length]);
-            for (std::size_t k = 0; k < length; ++k)
-                for (std::size_t line = 0; line < lines; ++line)
-                    corner[3 * k * stride + line] = after[line * length + k];
+        std::vector<WaveVector> after(length);
+        for (std::size_t column = 0; column < waves_along_x(); ++column) {
+            WaveVector* const first = &waves[plane * plane_stride + column];
+            transform.transform(first, after.data(), 0, 1, stride);
+            for (std::size_t k = 0; k < length; ++k) first[k * stride] = after[k];
         }
     });
 }
@@ -45,20 +37,17 @@ void FourierGrid::forward() {
     const std::size_t wx = waves_along_x(), length = nx;
     const Transform transform(nx, false);
     parallel_for_parts(ny * nz / 2, [&](std::size_t pair) {
-        std::vector<Complex> before(length), after(length);
+        std::vector<WaveVector> before(length), after(length);
         const GridVector* const a = &field[2 * pair * length];
         const GridVector* const b = a + length;
         WaveVector* const wave_a = &waves[2 * pair * wx];
         WaveVector* const wave_b = wave_a + wx;
-        for (std::size_t n = 0; n < 3; ++n) {
-            for (std::size_t x = 0; x < length; ++x) before[x] = {a[x].lanes[n], b[x].lanes[n]};
-            transform.transform(before.data(), after.data());
-            for (std::size_t k = 0; k < wx; ++k) {
-                const Complex f = after[k], mirror = std::conj(after[k == 0 ? 0 : length - k]);
-                const Complex sum = f + mirror, difference = f - mirror;
-                wave_a[k][n] = 0.5 * sum;
-                wave_b[k][n] = {0.5 * difference.imag(), -0.5 * difference.real()};
-            }
+        for (std::size_t x = 0; x < length; ++x) before[x] = {a[x], b[x]};
+        transform.transform(before.data(), after.data());
+        for (std::size_t k = 0; k < wx; ++k) {
+            const WaveVector f = after[k], mirror = after[k == 0 ? 0 : length - k];
+            wave_a[k] = {0.5 * (f.real() + mirror.real()), 0.5 * (f.imag() - mirror.imag())};
+            wave_b[k] = {0.5 * (f.imag() + mirror.imag()), 0.5 * (mirror.real() - f.real())};
         }
     });
     transform_columns(false, nz, ny, ny * wx, wx);
@@ -72,21 +61,18 @@ void FourierGrid::backward() {
     transform_columns(true, nz, ny, ny * wx, wx);
     const Transform transform(nx, true);
     parallel_for_parts(ny * nz / 2, [&](std::size_t pair) {
-        std::vector<Complex> before(length), after(length);
+        std::vector<WaveVector> before(length), after(length);
         GridVector* const a = &field[2 * pair * length];
         GridVector* const b = a + length;
         const WaveVector* const wave_a = &waves[2 * pair * wx];
         const WaveVector* const wave_b = wave_a + wx;
-        const auto times_i = [](const Complex& c) { return Complex(-c.imag(), c.real()); };
-        for (std::size_t n = 0; n < 3; ++n) {
-            for (std::size_t k = 0; k < wx; ++k) before[k] = wave_a[k][n] + times_i(wave_b[k][n]);
-            for (std::size_t k = wx; k < length; ++k)
-                before[k] = std::conj(wave_a[length - k][n]) + times_i(std::conj(wave_b[length - k][n]));
-            transform.transform(before.data(), after.data());
-            for (std::size_t x = 0; x < length; ++x) {
-                a[x].lanes[n] = after[x].real();
-                b[x].lanes[n] = after[x].imag();
-            }
+        for (std::size_t k = 0; k < wx; ++k) before[k] = wave_a[k] + times_i(wave_b[k]);
+        for (std::size_t k = wx; k < length; ++k)
+            before[k] = std::conj(wave_a[length - k]) + times_i(std::conj(wave_b[length - k]));
+        transform.transform(before.data(), after.data());
+        for (std::size_t x = 0; x < length; ++x) {
+            a[x] = after[x].real();
+            b[x] = after[x].imag();
         }
     });
 }

@@ -1,20 +1,12 @@
 #pragma once
 
 #include <array>
-#include <complex>
 #include <cstddef>
 #include <vector>
 
+#include "jostle/hydrodynamics/grid_vector.hpp"
+
 namespace jostle {
-
-/// Three numbers at a point of the grid, in a vector register.
-struct alignas(32) GridVector {
-    using Lanes [[gnu::vector_size(32)]] = double;
-    Lanes lanes{};  // x, y, z, 0
-};
-
-/// Three complex numbers of one wave.
-using WaveVector = std::array<std::complex<double>, 3>;
 
 /// Discrete Fourier transforms of a real vector field on a periodic grid, by KissFFT.
 ///

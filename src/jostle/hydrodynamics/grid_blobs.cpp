@@ -115,15 +115,14 @@ void GridBlobs::spread(std::span<const LineVector> forces, std::vector<GridVecto
     });
 }
 
-void GridBlobs::spread(const AxialStresslet& stresslet, std::vector<GridVector>& field) const {
+void GridBlobs::spread(const AxialStresslets& stresslets, std::vector<GridVector>& field) const {
     // By how much the weight of a point grows as the blob goes on: the other way round than as the point does.
     const Weights slopes = weights_of_blobs([this](double x) { return -kernel_.slope(x); });
     spread_blobs(field, [&](std::size_t k, std::size_t y, std::size_t z, GridVector* row, const std::size_t* along_x) {
         const Blob& blob = placed_[k];
         const BlobLine& line = blobs_.of(blob.row);
         const Vec3& axis = rods_.axis[blob.row];
-        const double force = stresslet.force * line.lever_weight[blob.number];
-        const double dipole = stresslet.dipole * line.lever_weight[blob.number] * line.place[blob.number];
+        const auto [force, dipole] = axial_blob(stresslets, blob.row, line, blob.number);
         const double weight_y = of_blob(weights_, k, 1)[y], weight_z = of_blob(weights_, k, 2)[z];
         const double across_x =
             force * weight_y * weight_z + dipole * (axis.y * per_length_.y * of_blob(slopes, k, 1)[y] * weight_z +

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "jostle/hydrodynamics/axial_blob.hpp"
 #include "jostle/hydrodynamics/ewald_split.hpp"
 #include "jostle/hydrodynamics/fourier_grid.hpp"
 #include "jostle/hydrodynamics/line_vector.hpp"
@@ -26,8 +27,8 @@ public:
 
     /// field = sum over blobs of their forces.
     void spread(std::span<const LineVector> forces, std::vector<GridVector>& field) const;
-    /// The same of axial stresslets, alike on all rods.
-    void spread(const AxialStresslet& stresslet, std::vector<GridVector>& field) const;
+    /// The same of axial stresslets.
+    void spread(const AxialStresslets& stresslets, std::vector<GridVector>& field) const;
     /// velocities += what the field moves the rods by.
     void gather(const std::vector<GridVector>& field, std::span<LineVector> velocities) const;
 

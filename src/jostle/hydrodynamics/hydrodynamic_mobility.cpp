@@ -11,6 +11,7 @@
 #include "jostle/hydrodynamics/near_field.hpp"
 #include "jostle/hydrodynamics/square_root.hpp"
 #include "jostle/parallel/parallel_for.hpp"
+#include "jostle/rods/space_filling_order.hpp"
 
 namespace jostle {
 
@@ -48,23 +49,21 @@ struct Sums {
 class HydrodynamicOperator final : public MobilityOperator {
 public:
     HydrodynamicOperator(const Rods& rods, const Box& box, RodBlobs blobs, std::shared_ptr<const FluidFlows> flows,
-                         double noise_change)
+                         std::shared_ptr<FourierGrid> grid, double noise_change)
         : MobilityOperator(rods),
           box_(box),
           blobs_(std::move(blobs)),
           flows_(std::move(flows)),
+          grid_(std::move(grid)),
           noise_change_(noise_change) {}
 
     void apply(const Forces& forces, Velocities& velocities) const override {
-        std::vector<LineVector> pushed(rods().size()), moved(rods().size());
-        parallel_for(pushed.size(), [&](std::size_t i) {
-            pushed[i] = {forces.force[i], cross(forces.torque[i], rods().axis[i])};
-        });
-        sums().near.apply(pushed, moved);
-        if (sums().far) sums().far->add_flow(pushed, moved);
-        velocities = Velocities(rods().size());
-        add(moved, velocities);
+        apply(forces, velocities, sums().far ? &*sums().far : nullptr);
     }
+    /// Without the far field.
+    void apply_near(const Forces& forces, Velocities& velocities) const { apply(forces, velocities, nullptr); }
+
+    std::unique_ptr<const MobilityAmong> among(std::span<const std::uint32_t> rows) const override;
 
     /// xi: six numbers a rod for the near field, and six a wave of the grid (Stream::fluid) for the far field.
     void add_square_root(const RandomKey& key, double scale, Velocities& velocities) const override {
@@ -75,12 +74,11 @@ public:
         add(moved, velocities);
     }
 
-    void add_drift(double kT, Velocities& velocities) const override {
-        if (blobs_.most_blobs() < 2) return;  // spheres: M does not depend on their axes
-        const AxialStresslet thermal{.force = -2.0 * kT, .dipole = -kT};
+    void add_axial_flow(const AxialStresslets& stresslets, Velocities& velocities) const override {
+        if (blobs_.most_blobs() < 2 && stresslets.dipole.empty()) return;  // M does not depend on the axes of spheres
         std::vector<LineVector> moved(rods().size());
-        sums().near.add_axial_flow(thermal, moved);
-        if (sums().far) sums().far->add_axial_flow(thermal, moved);
+        sums().near.add_axial_flow(stresslets, moved);
+        if (sums().far) sums().far->add_axial_flow(stresslets, moved);
         add(moved, velocities);
     }
 
@@ -94,12 +92,23 @@ public:
     }
 
 private:
+    void apply(const Forces& forces, Velocities& velocities, const FarField* far) const {
+        std::vector<LineVector> pushed(rods().size()), moved(rods().size());
+        parallel_for(pushed.size(), [&](std::size_t i) {
+            pushed[i] = {forces.force[i], cross(forces.torque[i], rods().axis[i])};
+        });
+        sums().near.apply(pushed, moved);
+        if (far) far->add_flow(pushed, moved);
+        velocities.resize(rods().size());
+        set(moved, velocities);
+    }
+
     const Sums& sums() const {
         std::call_once(summed_, [this] {
             std::vector<RodMobility> own;
             for (const BlobLine& line : blobs_.lines()) own.push_back(own_near(line));
             sums_.reset(new Sums{NearField(rods(), box_, blobs_, flows_->in_real_space(), std::move(own)), {}});
-            if (flows_->near) sums_->far.emplace(rods(), box_, blobs_, flows_->split, *flows_->factors);
+            if (flows_->near) sums_->far.emplace(rods(), box_, blobs_, flows_->split, *flows_->factors, grid_);
         });
         return *sums_;
     }
@@ -162,6 +171,12 @@ private:
         return sum;
     }
 
+    void set(std::span<const LineVector> moved, Velocities& velocities) const {
+        parallel_for(moved.size(), [&](std::size_t i) {
+            velocities.linear[i] = moved[i].centre;
+            velocities.angular[i] = cross(rods().axis[i], moved[i].lever);
+        });
+    }
     void add(std::span<const LineVector> moved, Velocities& velocities) const {
         parallel_for(moved.size(), [&](std::size_t i) {
             velocities.linear[i] += moved[i].centre;
@@ -172,10 +187,35 @@ private:
     const Box& box_;
     RodBlobs blobs_;
     std::shared_ptr<const FluidFlows> flows_;
+    std::shared_ptr<FourierGrid> grid_;  ///< none in an unbounded fluid
     double noise_change_;
     mutable std::once_flag summed_;
     mutable std::unique_ptr<Sums> sums_;
 };
+
+/// Some of the rods, in the same box with the same flows: to them the others do not exist.
+class FluidAmong final : public MobilityAmong {
+public:
+    FluidAmong(Rods rods, const Box& box, RodBlobs blobs, std::shared_ptr<const FluidFlows> flows,
+               std::shared_ptr<FourierGrid> grid)
+        : rods_(std::move(rods)), fluid_(rods_, box, std::move(blobs), std::move(flows), std::move(grid), 0.0) {}
+
+    void apply(const Forces& forces, Velocities& velocities) const override { fluid_.apply(forces, velocities); }
+    void apply_near(const Forces& forces, Velocities& velocities) const override {
+        fluid_.apply_near(forces, velocities);
+    }
+
+private:
+    const Rods rods_;
+    const HydrodynamicOperator fluid_;
+};
+
+std::unique_ptr<const MobilityAmong> HydrodynamicOperator::among(std::span<const std::uint32_t> rows) const {
+    if (!flows_->near) return nullptr;  // in an unbounded fluid all is near
+    RodBlobs blobs{blobs_.kinds, {}};
+    for (const std::uint32_t row : rows) blobs.line_of.push_back(blobs_.line_of[row]);
+    return std::make_unique<FluidAmong>(reordered(rods(), rows), box_, std::move(blobs), flows_, grid_);
+}
 
 void require_known_box(const Rods& rods, const Box& box) {
     const auto [x, y, z] = box.periodic();
@@ -198,9 +238,11 @@ HydrodynamicMobility::HydrodynamicMobility(double viscosity, double tolerance, s
 std::unique_ptr<const MobilityOperator> HydrodynamicMobility::at(const Rods& rods, const Box& box) const {
     require_known_box(rods, box);
     std::shared_ptr<const FluidFlows> flows;
+    std::shared_ptr<FourierGrid> grid;
     {
         const std::lock_guard guard(lock_);
         flows = last_;
+        grid = std::move(spare_grid_);
     }
     RodBlobs blobs = blobs_of(rods, viscosity_, flows ? flows->lines : nullptr);
     EwaldSplit split;
@@ -215,7 +257,15 @@ std::unique_ptr<const MobilityOperator> HydrodynamicMobility::at(const Rods& rod
         const std::lock_guard guard(lock_);
         last_ = flows;
     }
-    return std::make_unique<HydrodynamicOperator>(rods, box, std::move(blobs), std::move(flows),
+    if (!flows->near)
+        grid.reset();
+    else if (!grid || grid.use_count() > 1 || grid->points() != split.grid)  // another operator is at work on it
+        grid = std::make_shared<FourierGrid>(split.grid);
+    {
+        const std::lock_guard guard(lock_);
+        spare_grid_ = grid;
+    }
+    return std::make_unique<HydrodynamicOperator>(rods, box, std::move(blobs), std::move(flows), std::move(grid),
                                                   std::min(tolerance_, 1e-3));
 }
 

@@ -13,6 +13,7 @@ namespace jostle {
 inline constexpr std::size_t most_rods_in_open_box = 2000;
 
 struct FluidFlows;
+class FourierGrid;
 
 /// Rods that move each other through the fluid (theory, section 7): M = W^T G W + the remainders of the rods' own
 /// mobilities, with blobs of force along each rod, in an unbounded fluid or in a box that is periodic along all
@@ -36,6 +37,7 @@ private:
     std::optional<double> cutoff_;
     mutable std::mutex lock_;  ///< of what was last made
     mutable std::shared_ptr<const FluidFlows> last_;
+    mutable std::shared_ptr<FourierGrid> spare_grid_;  ///< that of the last operator, which the next may take over
 };
 
 }  // namespace jostle

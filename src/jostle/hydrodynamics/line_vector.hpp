@@ -20,10 +20,4 @@ inline Vec3 across(const Vec3& axis, const Vec3& vector) {
     return vector - dot(axis, vector) * axis;
 }
 
-/// The thermal drift and the flow of swimmers are flows of axial stresslets (theory, eq. 7.8): at every blob a force
-/// `force` lever_weight n and a dipole `dipole` lever_weight place n n. Both are energies.
-struct AxialStresslet {
-    double force = 0.0, dipole = 0.0;
-};
-
 }  // namespace jostle

@@ -49,9 +49,16 @@ NearField::NearField(const Rods& rods, const Box& box, const RodBlobs& blobs, co
                      std::vector<RodMobility> own)
     : rods_(rods), box_(box), blobs_(blobs), flow_(flow), own_(std::move(own)) {
     find_pairs(box);
-    blocks_.resize(pairs_.size());
-    parallel_for(pairs_.size(), [&](std::size_t p) { blocks_[p] = blocks_of(pairs_[p]); });
     list_incidence();
+    std::vector<std::uint32_t> place(incidence_.size());
+    parallel_for(place.size(),
+                 [&](std::size_t entry) { place[incidence_[entry]] = static_cast<std::uint32_t>(entry); });
+    blocks_.resize(place.size());
+    parallel_for(pairs_.size(), [&](std::size_t p) {
+        const SideBlocks of_i = blocks_of(pairs_[p]);
+        blocks_[place[2 * p]] = of_i;
+        blocks_[place[2 * p + 1]] = {of_i.centre_centre, of_i.lever_centre, of_i.centre_lever, of_i.lever_lever};
+    });
 }
 
 void NearField::find_pairs(const Box& box) {
@@ -84,14 +91,17 @@ bool NearField::meet(const PairKey& key) const {
     const BlobLine &line_i = blobs_.of(key.i), &line_j = blobs_.of(key.j);
     const Vec3 apart = between(key);
     const double cutoff = flow_.cutoff(), reach = cutoff + line_i.half() + line_j.half();
-    if (!(squared_norm(apart) < reach * reach)) return false;
+    const double squared = squared_norm(apart);
+    if (!(squared < reach * reach)) return false;
+    const double on_i = 2.0 * dot(apart, rods_.axis[key.i]), on_j = 2.0 * dot(apart, rods_.axis[key.j]);
+    const double cosine = 2.0 * dot(rods_.axis[key.i], rods_.axis[key.j]);
     for (const double s_i : line_i.place)
         for (const double s_j : line_j.place)
-            if (squared_norm(apart + s_j * rods_.axis[key.j] - s_i * rods_.axis[key.i]) < cutoff * cutoff) return true;
+            if (squared + s_i * (s_i - on_i) + s_j * (s_j + on_j - s_i * cosine) < cutoff * cutoff) return true;
     return false;
 }
 
-NearField::PairBlocks NearField::blocks_of(const PairKey& key) const {
+NearField::SideBlocks NearField::blocks_of(const PairKey& key) const {
     const BlobLine &line_i = blobs_.of(key.i), &line_j = blobs_.of(key.j);
     const Vec3 apart = between(key), axis_i = rods_.axis[key.i], axis_j = rods_.axis[key.j];
     const double squared_cutoff = flow_.cutoff() * flow_.cutoff();
@@ -117,27 +127,32 @@ NearField::PairBlocks NearField::blocks_of(const PairKey& key) const {
     return {centre_centre.rounded(), centre_lever.rounded(), lever_centre.rounded(), lever_lever.rounded()};
 }
 
-/// What rod i of the pair gets from stresslets on rod j.
-LineVector NearField::flow_at(const PairKey& key, const AxialStresslet& stresslet) const {
+/// What the two rods of the pair get from stresslets on each other.
+std::array<LineVector, 2> NearField::flows_of(const PairKey& key, const AxialStresslets& stresslets) const {
     const BlobLine &line_i = blobs_.of(key.i), &line_j = blobs_.of(key.j);
     const Vec3 apart = between(key), axis_i = rods_.axis[key.i], axis_j = rods_.axis[key.j];
     const double squared_cutoff = flow_.cutoff() * flow_.cutoff();
-    LineVector sum;
+    LineVector on_i, on_j;
     for (std::size_t b = 0; b < line_i.place.size(); ++b) {
-        Vec3 velocity;
+        const AxialBlob blob_i = axial_blob(stresslets, key.i, line_i, b);
+        Vec3 velocity;  // of blob b
         for (std::size_t c = 0; c < line_j.place.size(); ++c) {
             const Vec3 r = apart + line_j.place[c] * axis_j - line_i.place[b] * axis_i;
             const double squared = squared_norm(r);
             if (!(squared < squared_cutoff)) continue;
             const BlobFlowSlope flow = flow_.with_slope(squared);
-            // r grows with the place of blob c, whose dipole is the derivative of its flow by this place.
-            velocity += (stresslet.force * line_j.lever_weight[c]) * flow.flow.of(r, axis_j) +
-                        (stresslet.dipole * line_j.lever_weight[c] * line_j.place[c]) * flow.along(r, axis_j);
+            // r grows with the place of blob c, whose dipole is the derivative of its flow by this place; and falls
+            // with that of blob b.
+            const AxialBlob blob_j = axial_blob(stresslets, key.j, line_j, c);
+            velocity += blob_j.force * flow.flow.of(r, axis_j) + blob_j.dipole * flow.along(r, axis_j);
+            const Vec3 of_j = blob_i.force * flow.flow.of(r, axis_i) - blob_i.dipole * flow.along(r, axis_i);
+            on_j.centre += line_j.force_weight[c] * of_j;
+            on_j.lever += line_j.lever_weight[c] * of_j;
         }
-        sum.centre += line_i.force_weight[b] * velocity;
-        sum.lever += line_i.lever_weight[b] * velocity;
+        on_i.centre += line_i.force_weight[b] * velocity;
+        on_i.lever += line_i.lever_weight[b] * velocity;
     }
-    return sum;
+    return {on_i, on_j};
 }
 
 void NearField::list_incidence() {
@@ -163,15 +178,19 @@ void NearField::list_incidence() {
                   incidence_.begin() + static_cast<std::ptrdiff_t>(begin_[i + 1]),
                   [&](std::uint32_t a, std::uint32_t b) { return order(a) < order(b); });
     });
+    others_.resize(incidence_.size());
+    parallel_for(others_.size(), [&](std::size_t entry) {
+        const PairKey& pair = pairs_[incidence_[entry] / 2];
+        others_[entry] = incidence_[entry] % 2 == 0 ? pair.j : pair.i;
+    });
 }
 
-/// Adds received(pair, whether the rod is j) of all pairs of each rod.
+/// Adds received(entry of incidence_) of all pairs of each rod.
 template <class Received>
 void NearField::gather(std::span<LineVector> velocities, Received&& received) const {
     parallel_for(rods_.size(), [&](std::size_t i) {
         LineVector sum;
-        for (std::size_t entry = begin_[i]; entry < begin_[i + 1]; ++entry)
-            received(incidence_[entry] / 2, incidence_[entry] % 2 == 1, sum);
+        for (std::size_t entry = begin_[i]; entry < begin_[i + 1]; ++entry) received(entry, sum);
         velocities[i].centre += sum.centre;
         velocities[i].lever += across(rods_.axis[i], sum.lever);
     });
@@ -184,22 +203,21 @@ void NearField::apply(std::span<const LineVector> forces, std::span<LineVector> 
         velocities[i] = {own.perpendicular * force + ((own.parallel - own.perpendicular) * dot(axis, force)) * axis,
                          own.rotational * forces[i].lever};
     });
-    gather(velocities, [&](std::size_t pair, bool is_j, LineVector& sum) {
-        const PairBlocks& blocks = blocks_[pair];
-        const LineVector& other = forces[is_j ? pairs_[pair].i : pairs_[pair].j];
+    gather(velocities, [&](std::size_t entry, LineVector& sum) {
+        const SideBlocks& blocks = blocks_[entry];
+        const LineVector& other = forces[others_[entry]];
         add_product(blocks.centre_centre, other.centre, sum.centre);
-        add_product(is_j ? blocks.lever_centre : blocks.centre_lever, other.lever, sum.centre);
-        add_product(is_j ? blocks.centre_lever : blocks.lever_centre, other.centre, sum.lever);
+        add_product(blocks.centre_lever, other.lever, sum.centre);
+        add_product(blocks.lever_centre, other.centre, sum.lever);
         add_product(blocks.lever_lever, other.lever, sum.lever);
     });
 }
 
-void NearField::add_axial_flow(const AxialStresslet& stresslet, std::span<LineVector> velocities) const {
+void NearField::add_axial_flow(const AxialStresslets& stresslets, std::span<LineVector> velocities) const {
     std::vector<std::array<LineVector, 2>> received(pairs_.size());
-    parallel_for(pairs_.size(), [&](std::size_t p) {
-        received[p] = {flow_at(pairs_[p], stresslet), flow_at(pairs_[p].turned(), stresslet)};
-    });
-    gather(velocities, [&](std::size_t pair, bool is_j, LineVector& sum) { sum += received[pair][is_j ? 1 : 0]; });
+    parallel_for(pairs_.size(), [&](std::size_t p) { received[p] = flows_of(pairs_[p], stresslets); });
+    gather(velocities,
+           [&](std::size_t entry, LineVector& sum) { sum += received[incidence_[entry] / 2][incidence_[entry] % 2]; });
 }
 
 }  // namespace jostle

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "jostle/contact/contacts.hpp"
+#include "jostle/hydrodynamics/axial_blob.hpp"
 #include "jostle/hydrodynamics/line_vector.hpp"
 #include "jostle/hydrodynamics/pair_flow.hpp"
 #include "jostle/hydrodynamics/rod_blobs.hpp"
@@ -25,22 +26,23 @@ public:
     void apply(std::span<const LineVector> forces, std::span<LineVector> velocities) const;
 
     /// velocities += those of the rods in the flow of stresslets on all other rods.
-    void add_axial_flow(const AxialStresslet& stresslet, std::span<LineVector> velocities) const;
+    void add_axial_flow(const AxialStresslets& stresslets, std::span<LineVector> velocities) const;
 
     std::size_t pairs() const { return pairs_.size(); }
 
 private:
     /// A symmetric 3 x 3 matrix: xx, xy, xz, yy, yz, zz.
     using Block = std::array<float, 6>;
-    struct PairBlocks {
-        Block centre_centre, centre_lever, lever_centre, lever_lever;  ///< of i, then of j
+    /// Of one side of a pair: what the rod gets (first) from what acts on the other (then).
+    struct SideBlocks {
+        Block centre_centre, centre_lever, lever_centre, lever_lever;
     };
 
     void find_pairs(const Box& box);
     void list_incidence();
     bool meet(const PairKey& key) const;
-    PairBlocks blocks_of(const PairKey& key) const;
-    LineVector flow_at(const PairKey& key, const AxialStresslet& stresslet) const;
+    SideBlocks blocks_of(const PairKey& key) const;
+    std::array<LineVector, 2> flows_of(const PairKey& key, const AxialStresslets& stresslets) const;
     Vec3 between(const PairKey& key) const {
         return rods_.centre[key.j] + box_.displacement(key.image) - rods_.centre[key.i];
     }
@@ -53,10 +55,11 @@ private:
     const PairFlow& flow_;
     std::vector<RodMobility> own_;
     std::vector<PairKey> pairs_;  ///< the smaller id first
-    std::vector<PairBlocks> blocks_;
     /// Of each row: 2 p where the rod is i of pair p, 2 p + 1 where it is j; in the order of the other rods' ids.
     std::vector<std::size_t> begin_;        ///< (N + 1)
     std::vector<std::uint32_t> incidence_;  ///< (2 pairs)
+    std::vector<std::uint32_t> others_;     ///< (2 pairs) row of the other rod
+    std::vector<SideBlocks> blocks_;  ///< (2 pairs) in this order, so that a rod reads its own one after the other
 };
 
 }  // namespace jostle

@@ -9,6 +9,7 @@
 
 #include "jostle/measurement/stress_columns.hpp"
 #include "jostle/measurement/summary_entries.hpp"
+#include "jostle/scene/pressure_control.hpp"
 #include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/schedule.hpp"
@@ -103,6 +104,11 @@ ProductionWindow production_window(const Scene& scene, const SeriesTable& series
     }
     if (scene.growth.rate > 0.0) {
         window.equilibrium.reason = "the number of cells changes";
+        return window;
+    }
+    if (compresses(scene)) {
+        window.equilibrium.verdict = Verdict::drifting;
+        window.equilibrium.reason = "the box is compressed; what it came to is in pressure_control";
         return window;
     }
     if (is_ramped(scene, window)) {

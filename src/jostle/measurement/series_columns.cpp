@@ -189,6 +189,25 @@ void add_active_columns(const Scene& scene, Series& series) {
                         [](const RowState& row, std::size_t k) { return row.sums.active_virial.m[k] / row.volume; });
 }
 
+void add_stresslet_columns(const Scene& scene, Series& series) {
+    const std::string stress = unit_of_stress(scene);
+    series.add_elements(
+        dipole_stress_column_names,
+        {"", stress, "Sigma_dip",
+         "element of the stress of the swimmers' force dipoles in the fluid at this step: sum over rods "
+         "of p (n n - I/3) over the volume, 0 while a rod tumbles; symmetric, traceless, no part of the "
+         "total",
+         in_compression},
+        [](const RowState& row, std::size_t k) { return upper_element(row.sums.dipole_virial, k) / row.volume; });
+    series.add_elements(
+        thermal_stress_column_names,
+        {"", stress, "Sigma_th",
+         "element of the thermal stress in the fluid at this step: sum over rods of -3 kT (n n - I/3) "
+         "over the volume; symmetric, traceless, no part of the total",
+         in_compression},
+        [](const RowState& row, std::size_t k) { return upper_element(row.sums.thermal_virial, k) / row.volume; });
+}
+
 void add_convention_columns(const Scene& scene, Series& series) {
     const std::string stress = unit_of_stress(scene);
     const auto mean = [](const Mat3& sum, const RowState& row, std::size_t k) {
@@ -272,6 +291,7 @@ TableColumns<RowState> series_columns(const Scene& scene) {
     if (has_torques(scene)) add_torque_columns(scene, series);
     if (scene_walls(scene).any() && scene.forces.on_rods != Vec3{}) add_force_columns(scene, series);
     if (swims(scene)) add_active_columns(scene, series);
+    if (stirs(scene)) add_stresslet_columns(scene, series);
     if (scene.output.stress_conventions) add_convention_columns(scene, series);
     return series;
 }

@@ -12,6 +12,7 @@
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/schedule.hpp"
 #include "jostle/setup/assemble.hpp"
+#include "jostle/stress/fluid_stress.hpp"
 
 namespace jostle {
 
@@ -124,9 +125,13 @@ void StepSums::look_at_swimmers(const Scene& scene, const Simulation& simulation
     const StepContext context = {scene.seed, simulation.clock().step, simulation.settings().time_step};
     const auto mobility = simulation.mobility().at(swimmers, simulation.box());
     const Swimming now = swimming_of(scene_at(scene, simulation.clock().time));
-    const std::vector<Vec3> force = SelfPropulsion(now).propulsion(swimmers, *mobility, context);
+    const SelfPropulsion swimming(now);
+    const std::vector<Vec3> force = swimming.propulsion(swimmers, *mobility, context);
     if (!domain.is_shared()) {
         active_virial = active_stress->virial(swimmers, simulation.box(), force);
+        if (!stirs(scene)) return;
+        dipole_virial = sum_of_dipole_stresses(swimmers, swimming.stresslets(swimmers, context).dipole);
+        thermal_virial = sum_of_thermal_stresses(swimmers, simulation.settings().kT);
         return;
     }
     std::vector<Swimmer> own;

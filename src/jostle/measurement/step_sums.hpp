@@ -36,6 +36,7 @@ struct StepSums {
     // of swimmers
     std::optional<ActiveStress> active_stress;  ///< of several ranks each has that of ids that are at home there
     Mat3 active_virial;                         ///< V times it, at the step of the row
+    Mat3 dipole_virial, thermal_virial;         ///< likewise of stresslets, where swimmers stir the fluid
     // since the last field
     std::optional<StressField> field;  ///< of several ranks the first one's
 

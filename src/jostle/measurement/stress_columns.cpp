@@ -20,9 +20,13 @@ Mat3 stress_of(std::span<const double> means) {
     return tensor;
 }
 
-Columns orientation_stress_columns(const SeriesTable& series, std::size_t first) {
-    const Columns six = window_columns(series, first, orientation_stress_column_names);
+Columns symmetric_columns(const SeriesTable& series, std::size_t first, const std::array<const char*, 6>& names) {
+    const Columns six = window_columns(series, first, names);
     return {six[0], six[1], six[2], six[1], six[3], six[4], six[2], six[4], six[5]};
+}
+
+Columns orientation_stress_columns(const SeriesTable& series, std::size_t first) {
+    return symmetric_columns(series, first, orientation_stress_column_names);
 }
 
 namespace {

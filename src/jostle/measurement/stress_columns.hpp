@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "jostle/math/mat3.hpp"
 #include "jostle/measurement/summary_entries.hpp"
 #include "jostle/run_files/series_file.hpp"
@@ -8,6 +10,9 @@ namespace jostle {
 
 /// A stress tensor of nine means, by rows.
 Mat3 stress_of(std::span<const double> means);
+
+/// The nine columns of a symmetric tensor, from the six of the series with these names, from row `first` on.
+Columns symmetric_columns(const SeriesTable& series, std::size_t first, const std::array<const char*, 6>& names);
 
 /// The nine columns of the orientation stress, from the six of the series, from row `first` on.
 Columns orientation_stress_columns(const SeriesTable& series, std::size_t first);

@@ -16,6 +16,7 @@
 #include "jostle/measurement/wall_columns.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/run_files/version.hpp"
+#include "jostle/scene/pressure_control.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_motion.hpp"
@@ -130,26 +131,52 @@ Json box_entry(const Scene& scene, const Box& box) {
             {"unit", unit_of(scene, dimension::length)}};
 }
 
-/// Of a box under pressure: mean volume fraction and volume, the edges, Z = P V/(N kT), and the compressibility
-/// var V/(kT V).
+/// var V/(kT <V>).
+Json compressibility_entry(const std::vector<double>& volume, double kT) {
+    std::vector<double> squares = volume;
+    const double reference = column_mean(volume);
+    for (double& value : squares) value = (value - reference) * (value - reference);
+    return described(jackknife(Columns{volume, squares}, [&](std::span<const double> means) {
+        const double shift = means[0] - reference;
+        return (means[1] - shift * shift) / (kT * means[0]);
+    }));
+}
+
+bool has_piston(const Scene& scene) {
+    return scene.pressure.coupling == StrainCoupling::piston;
+}
+
+/// Of the rods on the bath: on the piston, or the mean over all directions.
+std::vector<double> pressure_on_bath(const Scene& scene, const Box& box, const SeriesTable& series, std::size_t first) {
+    if (!has_piston(scene)) return from_row(series.column("pressure"), first);
+    for (const Wall& wall : walls_of(box)) {
+        if (wall.number != 2 * static_cast<std::uint32_t>(piston_direction(scene)) + 1) continue;
+        std::vector<double> pressure = from_row(series.column(force_column(wall)), first);
+        for (double& value : pressure) value /= area_of(wall, box);
+        return pressure;
+    }
+    return {};
+}
+
+/// Of a box under pressure: mean volume fraction and volume, the edges, and where the bath moves all of the box, Z = P
+/// V/(N kT) and the compressibility. Without thermal motion what the last row has.
 Json volume_entry(const Scene& scene, const Simulation& simulation, const SeriesTable& series, std::size_t first) {
     const double kT = simulation.settings().kT, rods = static_cast<double>(simulation.rods().size());
     const std::vector<double> volume = from_row(series.column("volume"), first);
-    std::vector<double> factor = volume, squares = volume;
-    const double reference = column_mean(volume);
-    for (std::size_t row = 0; row < volume.size(); ++row) {
-        factor[row] = *scene.pressure.external * volume[row] / (rods * kT);
-        squares[row] = (volume[row] - reference) * (volume[row] - reference);
-    }
-    const Estimate compressibility = jackknife(Columns{volume, squares}, [&](std::span<const double> means) {
-        const double shift = means[0] - reference;
-        return (means[1] - shift * shift) / (kT * means[0]);
-    });
     Json entry = {{"external", {{"value", *scene.pressure.external}, {"unit", unit_of(scene, dimension::stress)}}},
                   {"volume_fraction", described(average(from_row(series.column("phi"), first)), "")},
-                  {"volume", described(average(volume), unit_of(scene, dimension::volume))},
-                  {"Z", described(average(factor), "")},
-                  {"compressibility", described(compressibility)}};
+                  {"volume", described(average(volume), unit_of(scene, dimension::volume))}};
+    if (kT > 0.0 && !has_piston(scene)) {
+        std::vector<double> factor = volume;
+        for (double& value : factor) value = *scene.pressure.external * value / (rods * kT);
+        entry["Z"] = described(average(factor), "");
+        entry["compressibility"] = compressibility_entry(volume, kT);
+    }
+    if (kT == 0.0)
+        entry["last"] = {{"volume_fraction", series.column("phi").back()},
+                         {"pressure_over_external",
+                          pressure_on_bath(scene, simulation.box(), series, first).back() / *scene.pressure.external},
+                         {"contacts_per_rod", 2.0 * series.column("active_contacts").back() / rods}};
     if (const auto& limit = scene.pressure.limit_volume_fraction)
         entry["limit_reached"] = series.column("phi").back() >= *limit;
     for (const char* name : edge_column_names)
@@ -261,6 +288,10 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
         summary["stress_torques"] =
             tensor_entry(window_columns(series, first, torque_stress_column_names), stress_unit);
     if (swims(scene)) summarise_active_stress(series, first, stress_unit, summary);
+    if (stirs(scene))
+        for (const auto& [name, columns] : {std::pair{"stress_dipoles", dipole_stress_column_names},
+                                            std::pair{"stress_thermal", thermal_stress_column_names}})
+            summary[name] = tensor_entry(symmetric_columns(series, first, columns), stress_unit);
     if (flows(scene))
         summary["flow"] = flow_entry(scene, series, first, stress);
     else if (thermal)
@@ -296,7 +327,7 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
         checks["total_stress_ratio"] = total_stress_ratio_check(stress, order, dimensions);
     if (in_equilibrium && scene.pressure.external)
         checks["bath_pressure_ratio"] =
-            bath_check(*scene.pressure.external, from_row(series.column("pressure"), first));
+            bath_check(*scene.pressure.external, pressure_on_bath(scene, simulation.box(), series, first));
     for (const WallGroup& group : wall_groups(walls))
         if (in_equilibrium)
             checks[group.column + "_ratio"] =

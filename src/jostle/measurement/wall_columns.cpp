@@ -17,14 +17,6 @@ namespace {
 constexpr const char* sign = "positive: rods push the wall outwards";
 constexpr const char* mean_of_steps = "mean over the steps since the last row";
 
-/// "wall_force_x_lower"; of a container "wall_force".
-std::string force_column(const Wall& wall) {
-    if (wall.shape != Wall::Shape::plane) return "wall_force";
-    std::string name = std::string("wall_force_") + name_of(wall);
-    std::replace(name.begin(), name.end(), ' ', '_');
-    return name;
-}
-
 double pressure_on(const WallGroup& group, const RowState& row) {
     double force = 0.0, area = 0.0;
     const Box& box = row.simulation.box();
@@ -44,6 +36,13 @@ double normal_stress(const WallGroup& group, const Walls& walls, const Mat3& str
 }
 
 }  // namespace
+
+std::string force_column(const Wall& wall) {
+    if (wall.shape != Wall::Shape::plane) return "wall_force";
+    std::string name = std::string("wall_force_") + name_of(wall);
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name;
+}
 
 std::vector<WallGroup> wall_groups(const Walls& walls) {
     std::vector<WallGroup> groups;

@@ -19,6 +19,9 @@ struct WallGroup {
 
 std::vector<WallGroup> wall_groups(const Walls& walls);
 
+/// "wall_force_x_lower"; of a container "wall_force".
+std::string force_column(const Wall& wall);
+
 /// The force on each wall, and the pressure of each group, mean over the steps since the last row.
 void add_wall_columns(const Scene& scene, TableColumns<RowState>& series);
 

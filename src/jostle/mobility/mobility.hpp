@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <span>
 
 #include "jostle/math/random.hpp"
+#include "jostle/rods/axial_stresslets.hpp"
 #include "jostle/rods/box.hpp"
 #include "jostle/rods/forces.hpp"
 #include "jostle/rods/relative_mobility.hpp"
@@ -10,6 +13,18 @@
 #include "jostle/rods/velocities.hpp"
 
 namespace jostle {
+
+/// M among some of the rods: without the rows and columns of the others.
+class MobilityAmong {
+public:
+    virtual ~MobilityAmong() = default;
+
+    /// velocities = M forces, (n) each, in the order of the rods that were asked for; `velocities` is given that size.
+    virtual void apply(const Forces& forces, Velocities& velocities) const = 0;
+
+    /// The same of a part of M that costs much less to apply; what it leaves out is positive semi-definite.
+    virtual void apply_near(const Forces& forces, Velocities& velocities) const = 0;
+};
 
 /// M at one configuration: the linear map from forces on the rods to their velocities, symmetric and positive
 /// semi-definite.
@@ -29,11 +44,18 @@ public:
     /// stream of the key and of the rods' ids: Brownian velocities for scale = sqrt(2 kT/dt).
     virtual void add_square_root(const RandomKey& key, double scale, Velocities& velocities) const = 0;
 
-    /// velocities += kT div M, the thermal drift; 0, and nothing to add, where no rod's mobility depends on others.
-    virtual void add_drift(double /*kT*/, Velocities& /*velocities*/) const {}
+    /// velocities += kT div M, the thermal drift, and those of the rods in the flow of the force dipoles of others; 0,
+    /// and nothing to add, where rods do not move each other.
+    virtual void add_axial_flow(const AxialStresslets& /*stresslets*/, Velocities& /*velocities*/) const {}
 
     /// Whether a force on one rod moves others. If not, `of_rod` says everything.
     virtual bool couples_rods() const = 0;
+
+    /// M among the rods of these rows, where it has a near part; else none. The rows may not hold one twice. What is
+    /// returned holds a reference to the operator.
+    virtual std::unique_ptr<const MobilityAmong> among(std::span<const std::uint32_t> /*rows*/) const {
+        return nullptr;
+    }
 
     /// The diagonal block of rod `i`: its own mobility.
     virtual RodMobility of_rod(std::size_t i) const = 0;

@@ -25,7 +25,10 @@ void BrownianMotion::add_velocities(Velocities& known, const Rods& /*rods*/, con
     assert(context.time_step > 0.0);
     const double scale = std::sqrt(2.0 * kT_ / context.time_step);
     mobility.add_square_root({context.seed, context.step, Stream::brownian, 0}, scale, known);
-    mobility.add_drift(kT_, known);
+}
+
+AxialStresslets BrownianMotion::stresslets(const Rods& /*rods*/, const StepContext& /*context*/) const {
+    return {.kT = kT_, .dipole = {}};
 }
 
 std::vector<StepLimit> BrownianMotion::step_limits(const Rods& rods, const MobilityOperator& mobility,

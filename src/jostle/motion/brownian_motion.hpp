@@ -15,6 +15,8 @@ public:
 
     void add_velocities(Velocities& known, const Rods& rods, const MobilityOperator& mobility,
                         const StepContext& context) const override;
+    /// kT div M is the flow of thermal stresslets.
+    AxialStresslets stresslets(const Rods& rods, const StepContext& context) const override;
 
     bool keeps_equilibrium() const override { return true; }
 

@@ -26,4 +26,18 @@ std::optional<Forces> sum_of_forces(std::span<const std::unique_ptr<Motion>> mot
     return sum;
 }
 
+AxialStresslets sum_of_stresslets(std::span<const std::unique_ptr<Motion>> motions, const Rods& rods,
+                                  const StepContext& context) {
+    AxialStresslets sum;
+    for (const auto& motion : motions) {
+        AxialStresslets own = motion->stresslets(rods, context);
+        sum.kT += own.kT;
+        if (own.dipole.empty()) continue;
+        assert(own.dipole.size() == rods.size());
+        if (sum.dipole.empty()) sum.dipole.resize(rods.size());
+        for (std::size_t i = 0; i < rods.size(); ++i) sum.dipole[i] += own.dipole[i];
+    }
+    return sum;
+}
+
 }  // namespace jostle

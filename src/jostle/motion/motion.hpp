@@ -35,6 +35,10 @@ public:
     virtual void add_velocities(Velocities& /*known*/, const Rods& /*rods*/, const MobilityOperator& /*mobility*/,
                                 const StepContext& /*context*/) const {}
 
+    /// What it does to the fluid beside forces and torques: the step adds up the stresslets of all motions, and their
+    /// flow is found once.
+    virtual AxialStresslets stresslets(const Rods& /*rods*/, const StepContext& /*context*/) const { return {}; }
+
     /// Rows of the rods that exchange head and tail once the step has been made, n -> -n: the same bodies, and no point
     /// of one moves.
     virtual std::vector<std::uint32_t> turned_round(const Rods& /*rods*/, const StepContext& /*context*/) const {
@@ -54,5 +58,9 @@ public:
 /// The sum of the forces of all motions; none if no motion exerts any.
 std::optional<Forces> sum_of_forces(std::span<const std::unique_ptr<Motion>> motions, const Rods& rods,
                                     const StepContext& context);
+
+/// The sum of their stresslets.
+AxialStresslets sum_of_stresslets(std::span<const std::unique_ptr<Motion>> motions, const Rods& rods,
+                                  const StepContext& context);
 
 }  // namespace jostle

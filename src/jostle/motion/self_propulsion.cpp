@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -23,12 +24,14 @@ constexpr double farthest_swim = 0.5;
 
 SelfPropulsion::SelfPropulsion(const Swimming& swimming)
     : swimming_(swimming), tumbles_(swimming.tumble_rate, swimming.tumble_time, swimming.dimensions) {
-    const auto& [speed, deviation, tumble_rate, tumble_time, reversal_rate, dimensions] = swimming_;
+    const auto& [speed, deviation, tumble_rate, tumble_time, reversal_rate, force_dipole, dimensions] = swimming_;
     require_value(std::isfinite(speed), "motion.self_propulsion", speed, "is no speed", "any finite number");
     require_value(std::isfinite(deviation) && deviation >= 0.0, "motion.self_propulsion_deviation", deviation,
                   "is no standard deviation", ">= 0, finite");
     require_value(std::isfinite(reversal_rate) && reversal_rate >= 0.0, "motion.reversal_rate", reversal_rate,
                   "is no rate", ">= 0, finite");
+    require_value(std::isfinite(force_dipole), "motion.force_dipole", force_dipole, "is no energy",
+                  "any finite number");
 }
 
 void SelfPropulsion::add_velocities(Velocities& known, const Rods& rods, const MobilityOperator& /*mobility*/,
@@ -41,6 +44,15 @@ void SelfPropulsion::add_velocities(Velocities& known, const Rods& rods, const M
         else
             known.linear[i] += speed[i] * rods.axis[i];
     });
+}
+
+AxialStresslets SelfPropulsion::stresslets(const Rods& rods, const StepContext& context) const {
+    if (swimming_.force_dipole == 0.0) return {};
+    AxialStresslets own{.kT = 0.0, .dipole = std::vector<double>(rods.size())};
+    parallel_for(rods.size(), [&](std::size_t i) {
+        if (!tumbles_.angular_velocity(rods.id[i], context)) own.dipole[i] = swimming_.force_dipole;
+    });
+    return own;
 }
 
 std::vector<std::uint32_t> SelfPropulsion::turned_round(const Rods& rods, const StepContext& context) const {
@@ -57,7 +69,27 @@ std::vector<std::uint32_t> SelfPropulsion::turned_round(const Rods& rods, const 
     return rows;
 }
 
-std::vector<StepLimit> SelfPropulsion::step_limits(const Rods& rods, const MobilityOperator& /*mobility*/,
+/// The force at either end of the dipole, on a rod beside it.
+StepLimit SelfPropulsion::dipole_limit(const Rods& rods, const MobilityOperator& mobility) const {
+    double fastest = 0.0;  // in diameters
+    for (std::size_t i = 0; i < rods.size(); ++i) {
+        const double force = std::fabs(swimming_.force_dipole) / (rods.length[i] + rods.diameter[i]);
+        fastest = std::max(fastest, force * mobility.of_rod(i).perpendicular / rods.diameter[i]);
+    }
+    return {.key = "motion.force_dipole",
+            .value = fmt::format("{:.4g}", swimming_.force_dipole),
+            .number = std::fabs(swimming_.force_dipole),
+            .harm = "drags a rod through others",
+            .what = "a swimmer's dipole drags a rod beside it by up to",
+            .unit = "D",
+            .remedy = "a weaker dipole",
+            .rate = fastest,
+            .automatic = advised_swim,
+            .advised = advised_swim,
+            .largest = farthest_swim};
+}
+
+std::vector<StepLimit> SelfPropulsion::step_limits(const Rods& rods, const MobilityOperator& mobility,
                                                    std::uint64_t seed) const {
     const std::vector<double> speed = speeds(rods, seed);
     double fastest = 0.0, fastest_over_diameter = 0.0;
@@ -77,6 +109,7 @@ std::vector<StepLimit> SelfPropulsion::step_limits(const Rods& rods, const Mobil
                                       .automatic = advised_swim,
                                       .advised = advised_swim,
                                       .largest = farthest_swim}};
+    if (swimming_.force_dipole != 0.0) limits.push_back(dipole_limit(rods, mobility));
     for (StepLimit& limit : tumbles_.step_limits(rods)) limits.push_back(std::move(limit));
     return limits;
 }

@@ -19,38 +19,106 @@ namespace jostle {
 
 namespace {
 
-/// In D, by which rods that touch are brought nearer, root mean square.
+/// In D, by which rods that touch are brought nearer; of noise, root mean square.
 constexpr double automatic_strain = 0.01, advised_strain = 0.03, largest_strain = 0.1;
+/// Of a rod's mobility: noise of a plane is common to all that touch it, and the shifts of gaps know nothing of it.
+constexpr double mobility_of_piston = 0.1;
+/// Viscosities over the pressure: rods in suspension resist as 100 viscosities at a volume fraction of some 0.6.
+constexpr double viscosities = 100.0;
+
+bool is_piston(const Scene& scene) {
+    return scene.pressure.coupling == StrainCoupling::piston;
+}
+
+/// Of a rod of mean size alone.
+double diffusion_of_a_rod(const Scene& scene) {
+    const RodMobility rod = capsule_drag(scene.rods.length, scene.rods.diameter, scene.fluid.viscosity);
+    return thermal_energy(scene) * (rod.parallel + 2.0 * rod.perpendicular) / 3.0;
+}
 
 }  // namespace
 
-double pressure_relaxation_time(const Scene& scene) {
+bool compresses(const Scene& scene) {
+    return scene.pressure.external && thermal_energy(scene) == 0.0;
+}
+
+int piston_direction(const Scene& scene) {
+    for (int k = 0; k < 3; ++k)
+        if (scene.walls.faces[static_cast<std::size_t>(k)]) return k;
+    return 2;
+}
+
+double pressure_relaxation_time(const Scene& scene, double count, double edge) {
     if (scene.pressure.relaxation_time) return *scene.pressure.relaxation_time;
-    const RodMobility rod = capsule_drag(scene.rods.length, scene.rods.diameter, scene.fluid.viscosity);
+    if (thermal_energy(scene) == 0.0) return viscosities * scene.fluid.viscosity / *scene.pressure.external;
     const double size = scene.rods.length + scene.rods.diameter;
-    return size * size / (thermal_energy(scene) * (rod.parallel + 2.0 * rod.perpendicular) / 3.0);
+    return is_piston(scene) ? edge * edge / (count * mobility_of_piston * diffusion_of_a_rod(scene))
+                            : size * size / diffusion_of_a_rod(scene);
 }
 
 StepLimit pressure_limit(const Scene& scene, const Rods& rods) {
-    double slenderest = 0.0;
-    for (std::size_t i = 0; i < rods.size(); ++i)
+    double slenderest = 0.0, thinnest = INFINITY;
+    for (std::size_t i = 0; i < rods.size(); ++i) {
         slenderest = std::max(slenderest, (rods.length[i] + rods.diameter[i]) / rods.diameter[i]);
-    const bool orthogonal = scene.pressure.coupling == StrainCoupling::orthogonal;
+        thinnest = std::min(thinnest, rods.diameter[i]);
+    }
+    const bool thermal = thermal_energy(scene) > 0.0;
     const double count =
         rods_are_given(scene) ? static_cast<double>(rods.size()) : static_cast<double>(scene.rods.count);
+    const double edge = box_edges(scene, volume_of_all(scene, rods))[piston_direction(scene)];
+    const double time = pressure_relaxation_time(scene, count, edge);
+    const double scale = is_piston(scene)                                        ? thinnest / edge
+                         : scene.pressure.coupling == StrainCoupling::orthogonal ? 1.0 / slenderest
+                                                                                 : 3.0 / slenderest;
     return {.key = "pressure.relaxation_time",
-            .value = rounded(pressure_relaxation_time(scene)),
-            .harm = "lets the box tremble so that contacts cannot follow",
-            .what = "the noise of the box brings rods that touch nearer, in the root mean square, by",
+            .value = rounded(time),
+            .harm = thermal ? "lets the box tremble so that contacts cannot follow"
+                            : "closes gaps so far that contacts cannot follow",
+            .what = thermal ? "the noise of the box brings rods that touch nearer, in the root mean square, by"
+                            : "the box, where nothing resists, brings rods that touch nearer by",
             .unit = "D",
             .remedy = "a longer relaxation_time",
-            .rate = 2.0 / (pressure_relaxation_time(scene) * count),
-            .scale = (orthogonal ? 1.0 : 3.0) / slenderest,
-            .diffusive = true,
+            .rate = thermal ? 2.0 / (time * count) : 1.0 / time,
+            .scale = scale,
+            .diffusive = thermal,
             .automatic = automatic_strain,
             .advised = advised_strain,
             .largest = largest_strain};
 }
+
+namespace {
+
+/// The one pair of planes that a piston is of.
+void validate_piston(const Scene& scene, const std::string& value) {
+    const int planes = static_cast<int>(std::count(scene.walls.faces.begin(), scene.walls.faces.end(), true));
+    if (is_piston(scene) && planes != 1)
+        refuse("pressure.coupling", "\"piston\"",
+               fmt::format("moves the upper one of two planes, and there are {} pairs of them", planes),
+               "walls.faces true in one direction", "");
+    if (!is_piston(scene) && scene_walls(scene).any())
+        refuse("pressure.external", value, "walls bear the pressure of the rods", "coupling = \"piston\"",
+               "Planes across one direction can be pistons");
+}
+
+/// Without thermal motion contact forces open the box in the step in which they act, and no other force does.
+void validate_compression(const Scene& scene) {
+    const auto only = [&](bool there, const char* what, const char* remedy) {
+        if (there)
+            refuse("pressure.external", text(*scene.pressure.external),
+                   fmt::format("without thermal motion compresses rods that nothing else moves, and {}", what),
+                   "no [pressure]", remedy);
+    };
+    only(!scene.springs.file.empty(), "springs do", "Remove springs.file");
+    only(scene.forces.on_rods != Vec3{} || scene.forces.alignment_energy != 0.0, "[forces] do", "Remove [forces]");
+    if (scene.solver.method == SolverMethod::projected_sor)
+        refuse("solver.method", "\"projected_sor\"", "cannot solve for a box that all contacts open",
+               "\"auto\", \"adaptive_bb\", \"minimum_map_newton\", \"bbpgd\", \"apgd\"", "");
+    if (scene.pressure.coupling == StrainCoupling::orthogonal)
+        refuse("pressure.coupling", "\"orthogonal\"",
+               "needs thermal motion: of rods at rest all edges shrink in one ratio", "\"isotropic\"", "");
+}
+
+}  // namespace
 
 void validate_pressure(const Scene& scene) {
     if (!scene.pressure.external) return;
@@ -58,12 +126,13 @@ void validate_pressure(const Scene& scene) {
     const auto not_with = [&](bool there, const char* what, const char* remedy) {
         if (there) refuse("pressure.external", value, what, "no [pressure]", remedy);
     };
-    not_with(thermal_energy(scene) == 0.0 || !scene.schedule.kT.empty(),
-             "the box is moved by noise of the rods' temperature, which is to be above 0 and stay",
-             "Compress by [schedule] without thermal motion");
-    not_with(scene_walls(scene).any(), "walls bear the pressure of the rods", "Move planes by schedule.edges");
-    not_with(!(scene.box.periodic == std::array{true, true, true}), "the box is open, and nothing holds the rods",
-             "Make the box periodic along all directions");
+    validate_piston(scene, value);
+    const std::array<bool, 3> walled = walled_directions(scene);
+    not_with(!scene.schedule.kT.empty(), "the box is moved by noise of the rods' temperature, which is to stay",
+             "Remove schedule.kT");
+    for (std::size_t k = 0; k < 3; ++k)
+        not_with(!scene.box.periodic[k] && !walled[k], "the box is open, and nothing holds the rods",
+                 "Make the box periodic along all directions but those that end at walls");
     not_with(has_flow(scene), "a flow shears the box, whose volume stays", "Keep one of the two");
     not_with(scene.growth.rate > 0.0, "cells that grow change what fills the box", "Remove [growth], or [pressure]");
     not_with(swims(scene), "the pressure of swimmers is not known from their contacts", "Remove self_propulsion");
@@ -72,12 +141,13 @@ void validate_pressure(const Scene& scene) {
     not_with(scene.mobility.model == MobilityModel::hydrodynamic, "the fluid would have to flow with the box",
              "Use mobility.model = \"capsule\"");
     not_with(scene.contact.model == ContactModel::wca, "soft rods have not been tried", "Use contact.model = \"hard\"");
-    not_with(!scene.contact.brownian_correction,
+    not_with(!scene.contact.brownian_correction && thermal_energy(scene) > 0.0,
              "without the time-step correction the volume would be wrong by several per cent",
              "Remove contact.brownian_correction = false");
     if (scene.pressure.coupling == StrainCoupling::orthogonal && !scene.springs.file.empty())
         refuse("pressure.coupling", "\"orthogonal\"", "springs' part of the force on each edge is not measured",
                "\"isotropic\"", "");
+    if (compresses(scene)) validate_compression(scene);
 }
 
 }  // namespace jostle

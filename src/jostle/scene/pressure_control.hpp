@@ -8,10 +8,19 @@
 
 namespace jostle {
 
-/// pressure.relaxation_time; "auto": that in which a rod of mean size alone diffuses its length and diameter.
-double pressure_relaxation_time(const Scene& scene);
+/// Whether a bath compresses rods without thermal motion.
+bool compresses(const Scene& scene);
 
-/// How far the noise of the box brings rods that touch nearer in a step. `rods`: all, or one that stands for all.
+/// The direction whose upper plane is the piston, 0 to 2.
+int piston_direction(const Scene& scene);
+
+/// pressure.relaxation_time of `count` rods. "auto": that in which a rod of mean size alone diffuses its length and
+/// diameter; of a piston that which makes it a tenth as mobile as a rod; without thermal motion 100 viscosities over
+/// the pressure. `edge`: of the box across the piston, at the start.
+double pressure_relaxation_time(const Scene& scene, double count, double edge);
+
+/// How far the box, or the piston, brings rods that touch nearer in a step: by its noise, or without thermal motion
+/// where nothing resists. `rods`: all, or one that stands for all.
 StepLimit pressure_limit(const Scene& scene, const Rods& rods);
 
 /// Throws InputError where a bath of pressure does not go with what else the scene has.

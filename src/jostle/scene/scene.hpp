@@ -22,7 +22,7 @@ enum class StepRule { bb1, bb2, alternating };
 enum class ResidualKind { length, paper };
 enum class FrameTimes { even, logarithmic };
 enum class Direction { x, y, z };
-enum class StrainCoupling { isotropic, orthogonal };
+enum class StrainCoupling { isotropic, orthogonal, piston };
 
 /// A scene: everything that the user decides. Member names are the keys of the TOML file; one struct a table.
 ///
@@ -90,6 +90,7 @@ struct Scene {
         double tumble_rate = 0.0;
         std::optional<double> tumble_time;  // how long a tumble takes; "auto" (empty): 0.1/tumble_rate
         double reversal_rate = 0.0;
+        double force_dipole = 0.0;  // of each swimmer in the fluid, an energy: > 0 pushers, < 0 pullers
         bool operator==(const MotionTable&) const = default;
     } motion;
 
@@ -122,7 +123,7 @@ struct Scene {
     struct PressureTable {
         std::optional<double> external;  // of the bath; without it the volume stays
         StrainCoupling coupling = StrainCoupling::isotropic;
-        std::optional<double> relaxation_time;        // "auto" (empty): in which a rod diffuses its length
+        std::optional<double> relaxation_time;        // "auto" (empty): `pressure_relaxation_time`
         std::optional<double> limit_volume_fraction;  // ends the run
         bool operator==(const PressureTable&) const = default;
     } pressure;

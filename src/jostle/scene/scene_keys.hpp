@@ -100,6 +100,8 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("motion", "tumble_rate", scene.motion.tumble_rate, Quantity{dim::rate, zero_or_positive});
     visit("motion", "tumble_time", scene.motion.tumble_time, Quantity{dim::time, positive, true});
     visit("motion", "reversal_rate", scene.motion.reversal_rate, Quantity{dim::rate, zero_or_positive});
+    visit("motion", "force_dipole", scene.motion.force_dipole,
+          Quantity{dim::energy, {-Range::largest, Range::largest}});
     visit("forces", "on_rods", scene.forces.on_rods, Quantity{dim::force, {-Range::largest, Range::largest}});
     visit("forces", "drift", scene.forces.drift, Plain{});
     visit("forces", "alignment_energy", scene.forces.alignment_energy,
@@ -223,8 +225,9 @@ constexpr auto words(Direction) {
         {{"x", Direction::x}, {"y", Direction::y}, {"z", Direction::z}});
 }
 constexpr auto words(StrainCoupling) {
-    return std::to_array<std::pair<std::string_view, StrainCoupling>>(
-        {{"isotropic", StrainCoupling::isotropic}, {"orthogonal", StrainCoupling::orthogonal}});
+    return std::to_array<std::pair<std::string_view, StrainCoupling>>({{"isotropic", StrainCoupling::isotropic},
+                                                                       {"orthogonal", StrainCoupling::orthogonal},
+                                                                       {"piston", StrainCoupling::piston}});
 }
 constexpr auto words(FrameTimes) {
     return std::to_array<std::pair<std::string_view, FrameTimes>>(

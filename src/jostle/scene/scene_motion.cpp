@@ -26,7 +26,8 @@ Swimming swimming_of(const Scene& scene) {
     const Scene::MotionTable& motion = scene.motion;
     Swimming swimming = {motion.self_propulsion, motion.self_propulsion_deviation,
                          motion.tumble_rate,     0.0,
-                         motion.reversal_rate,   dimensions_of(scene)};
+                         motion.reversal_rate,   motion.force_dipole,
+                         dimensions_of(scene)};
     if (motion.tumble_rate > 0.0)
         swimming.tumble_time = motion.tumble_time.value_or(automatic_tumble_share / motion.tumble_rate);
     return swimming;
@@ -46,6 +47,10 @@ std::vector<std::unique_ptr<Motion>> motions_of(const Scene& scene) {
 
 bool swims(const Scene& scene) {
     return scene.motion.self_propulsion != 0.0 || !scene.schedule.self_propulsion.empty();
+}
+
+bool stirs(const Scene& scene) {
+    return scene.motion.force_dipole != 0.0;
 }
 
 bool has_torques(const Scene& scene) {

@@ -22,6 +22,9 @@ Swimming swimming_of(const Scene& scene);
 /// Whether its rods swim, now or later.
 bool swims(const Scene& scene);
 
+/// Whether its swimmers stir the fluid (motion.force_dipole).
+bool stirs(const Scene& scene);
+
 /// Whether torques turn its rods (forces.alignment_energy).
 bool has_torques(const Scene& scene);
 

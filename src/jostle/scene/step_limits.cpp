@@ -205,8 +205,10 @@ std::vector<StepLimit> flow_limits(const Scene& scene, const Rods& rods, const M
     return {strain, kT > 0.0 ? against_noise : in_diameters};
 }
 
-/// The narrowest that a schedule makes the box, edge by edge.
+/// The narrowest that a schedule makes the box, edge by edge. Under a bath the box of the start, so that a run goes on
+/// at the step that it began with.
 Box narrowest(const Scene& scene, const Box& box, const Rods& rods) {
+    if (scene.pressure.external) return box.with_edges(box_edges(scene, volume_of_all(scene, rods)));
     if (!squeezes_box(scene)) return box;
     const double volume = volume_of_all(scene, rods);
     Vec3 edges = box_edges(scene, volume);

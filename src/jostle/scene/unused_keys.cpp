@@ -50,14 +50,14 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
                           "Set alignment_energy, or remove alignment_axis"});
     if (!swims(scene))
         for (const char* key : {"motion.self_propulsion_deviation", "motion.tumble_rate", "motion.tumble_time",
-                                "motion.reversal_rate", "output.active_stress_lag"})
+                                "motion.reversal_rate", "motion.force_dipole", "output.active_stress_lag"})
             unused.push_back({key, "is not used with motion.self_propulsion = 0: nothing swims",
                               "Set self_propulsion, or remove it"});
     else if (scene.motion.tumble_rate == 0.0)
         unused.push_back({"motion.tumble_time", "is not used with motion.tumble_rate = 0",
                           "Set tumble_rate, or remove tumble_time"});
     if (scene.mobility.model != MobilityModel::hydrodynamic)
-        for (const char* key : {"mobility.tolerance", "mobility.cutoff"})
+        for (const char* key : {"mobility.tolerance", "mobility.cutoff", "motion.force_dipole"})
             unused.push_back({key,
                               fmt::format("is not used with mobility.model = \"{}\"", word_of(scene.mobility.model)),
                               "Set model = \"hydrodynamic\", or remove it"});

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "jostle/error/refuse.hpp"
 #include "jostle/hydrodynamics/hydrodynamic_mobility.hpp"
 #include "jostle/hydrodynamics/rod_blobs.hpp"
@@ -53,19 +55,32 @@ void check_box_of_fluid(const Scene& scene) {
                "Use \"auto\"");
 }
 
-void check_motions(const Scene& scene) {
-    if (swims(scene))
+/// Of the shortest rod.
+void check_swimming_length(const Scene& scene, double length) {
+    if (swims(scene) && length == 0.0)
         refuse("motion.self_propulsion", text(scene.motion.self_propulsion),
-               fmt::format("{} swimmers stir the fluid, which is not known yet", with_fluid), "0", without_fluid);
+               fmt::format("{} the flow does not turn spheres, so that they would swim wrongly", with_fluid),
+               "0, or rods.length > 0", without_fluid);
+}
+
+void check_motions(const Scene& scene) {
+    if (!rods_are_given(scene)) check_swimming_length(scene, scene.rods.length);
     if (has_schedule(scene))
-        refuse(names_of_schedule(scene), "", fmt::format("{} ramps have not been tried", with_fluid), "no [schedule]",
-               without_fluid);
+        refuse(names_of_schedule(scene), "",
+               fmt::format(
+                   "{} the fluid would have to flow with a box that is squeezed, and other ramps have not been tried",
+                   with_fluid),
+               "no [schedule]", without_fluid);
     if (scene.growth.rate > 0.0)
-        refuse("growth.rate", text(scene.growth.rate), fmt::format("{} growing cells have not been tried", with_fluid),
-               "0", without_fluid);
+        refuse("growth.rate", text(scene.growth.rate),
+               fmt::format("{} what grows drives the fluid away, and this flow is not known", with_fluid), "0",
+               without_fluid);
     if (!scene.springs.file.empty())
         refuse("springs.file", scene.springs.file,
-               fmt::format("{} no time step is known that springs allow", with_fluid), "no springs", without_fluid);
+               fmt::format("{} rods that move together are moved more easily than each alone, and how short a "
+                           "step springs need then is not known",
+                           with_fluid),
+               "no springs", without_fluid);
     if (scene.contact.model == ContactModel::wca)
         refuse("contact.model", "\"wca\"", fmt::format("{} soft rods have not been tried", with_fluid), "\"hard\"",
                without_fluid);
@@ -82,6 +97,11 @@ void validate_fluid(const Scene& scene) {
     Mistakes mistakes;
     for (const auto check : {check_sizes, check_box_of_fluid, check_motions}) mistakes.look([&] { check(scene); });
     mistakes.refuse_any();
+}
+
+void validate_swimmers_in_fluid(const Scene& scene, const Rods& rods) {
+    if (scene.mobility.model != MobilityModel::hydrodynamic || rods.size() == 0) return;
+    check_swimming_length(scene, *std::min_element(rods.length.begin(), rods.length.end()));
 }
 
 }  // namespace jostle

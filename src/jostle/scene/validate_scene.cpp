@@ -259,7 +259,7 @@ void check_time(const Scene& scene) {
                "Keep one of them");
     const bool moves = thermal_energy(scene_at_its_hardest(scene)) > 0.0 || swims(scene) || squeezes_box(scene) ||
                        scene.growth.rate > 0.0 || !scene.springs.file.empty() || scene.forces.on_rods != Vec3{} ||
-                       scene.forces.alignment_energy != 0.0 || flows(scene);
+                       scene.forces.alignment_energy != 0.0 || flows(scene) || scene.pressure.external;
     if (!scene.time.step && !scene.time.rms_step && !moves)
         refuse("time.step", "", "is missing, and nothing in the scene moves that a step could be found from",
                "a time, greater than 0", "Add step = 1e-3 under [time]");
@@ -328,10 +328,10 @@ const std::vector<TogetherCheck>& together_checks() {
         {check_fixed_rods, {"rods", "contact", "mobility", "schedule"}},
         {validate_pressure,
          {"pressure", "flow", "motion", "fluid", "walls", "box", "growth", "schedule", "rods", "mobility", "contact",
-          "springs"}},
+          "springs", "forces", "solver"}},
         {check_forces, {"forces", "walls", "box"}},
         {check_solver, {"contact", "solver", "fluid"}},
-        {check_time, {"time", "motion", "fluid", "growth", "springs", "schedule", "forces", "flow"}},
+        {check_time, {"time", "motion", "fluid", "growth", "springs", "schedule", "forces", "flow", "pressure"}},
         {check_growth, {"growth", "rods", "mobility"}},
         {check_contact_range, {"contact", "rods", "growth"}}};
     return checks;

@@ -10,6 +10,7 @@
 #include "jostle/disk/durable_file.hpp"
 #include "jostle/error/nearest_word.hpp"
 #include "jostle/scene/mistakes.hpp"
+#include "jostle/scene/pressure_control.hpp"
 #include "jostle/scene/scene_keys.hpp"
 #include "jostle/scene/scene_ranges.hpp"
 #include "jostle/scene/unused_keys.hpp"
@@ -208,7 +209,8 @@ Scene parse_scene(std::string_view text, std::string file_name) {
         placed.refuse_any();
     }
     // A growing population has no equilibrium to wait for.
-    if (scene.growth.rate > 0.0 && !scene.time.equilibration) scene.time.equilibration = 0.0;
+    const bool settles = scene.growth.rate == 0.0 && !compresses(scene);
+    if (!settles && !scene.time.equilibration) scene.time.equilibration = 0.0;
     return scene;
 }
 

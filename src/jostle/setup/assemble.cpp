@@ -43,6 +43,24 @@ Schedule schedule_of(const Scene& scene, const Rods& rods, double time_step) {
     };
 }
 
+/// What keeps the rods at the pressure of the scene.
+PressureControl control_of(const Scene& scene, const Rods& rods, double kT) {
+    using Moves = PressureControl::Moves;
+    const int piston = piston_direction(scene);
+    const double edge = box_edges(scene, total_volume(rods, dimensions_of(scene)))[piston];
+    const double count = static_cast<double>(rods.size()), time = pressure_relaxation_time(scene, count, edge);
+    const bool plane = scene.pressure.coupling == StrainCoupling::piston;
+    const bool each = scene.pressure.coupling == StrainCoupling::orthogonal;
+    PressureControl control = {*scene.pressure.external,
+                               plane  ? Moves::plane
+                               : each ? Moves::edges
+                                      : Moves::volume,
+                               piston};
+    if (kT > 0.0) control.mobility = (plane ? edge * edge : 1.0) / (time * count * kT);
+    control.rate = (plane ? edge : 1.0) / time;
+    return control;
+}
+
 /// kT of the last step that was made, or of the first.
 double present_kT(const Scene& scene, const Clock& clock, double time_step) {
     const std::uint64_t last = clock.step > 0 ? clock.step - 1 : 0;
@@ -84,9 +102,7 @@ Simulation assemble(const Scene& scene, State state) {
     settings.kT = present_kT(scene, state.clock, step);
     settings.time_step = step;
     settings.schedule = schedule_of(scene, rods, step);
-    if (scene.pressure.external)
-        settings.pressure = {*scene.pressure.external, scene.pressure.coupling == StrainCoupling::orthogonal,
-                             1.0 / (pressure_relaxation_time(scene) * static_cast<double>(rods.size()) * settings.kT)};
+    if (scene.pressure.external) settings.pressure = control_of(scene, rods, settings.kT);
     settings.brownian_correction = scene.contact.brownian_correction;
     settings.range = scene.contact.range.value_or(0.0);
     if (scene.contact.model == ContactModel::wca) {
@@ -97,10 +113,10 @@ Simulation assemble(const Scene& scene, State state) {
     settings.collision_moments = scene.output.stress_per_rod || scene.output.field_every > 0;
     settings.method = scene.solver.method;
     if (scene.contact.model == ContactModel::hard) {
-        settings.relinearise = noise_is_weak(scene, settings.time_step);
-        settings.warm_start = scene.solver.warm_start == WarmStarts::automatic
-                                  ? settings.relinearise
-                                  : scene.solver.warm_start == WarmStarts::always;
+        const bool weak = noise_is_weak(scene, settings.time_step);
+        settings.relinearise = weak && !scene.pressure.external;  // about a box that forces have not opened yet
+        settings.warm_start =
+            scene.solver.warm_start == WarmStarts::automatic ? weak : scene.solver.warm_start == WarmStarts::always;
     }
     const bool paper = scene.solver.residual == ResidualKind::paper;
     settings.lcp.residual = paper ? LcpResidual::paper : LcpResidual::length;

@@ -7,24 +7,76 @@
 
 namespace jostle {
 
-Vec3 edges_under_pressure(const State& state, const PressureControl& control, double kT, const StepContext& context) {
-    Vec3 edges = state.box.edges();
-    if (!state.box_force) return edges;
-    const Vec3 virial = control.orthogonal ? *state.box_force : [&] {
-        const double mean = (state.box_force->x + state.box_force->y + state.box_force->z) / 3.0;
-        return Vec3{mean, mean, mean};
-    }();
+namespace {
+
+using Moves = PressureControl::Moves;
+
+std::array<double, 3> noise_of_the_box(const StepContext& context) {
     constexpr std::array<std::uint64_t, 1> of_the_box = {0};
     std::array<Normals, 1> normal;
     fill_normals({context.seed, context.step, Stream::box, 0}, of_the_box, normal);
-    const double free = (static_cast<double>(state.rods.size()) + 1.0) * kT - control.external * state.box.volume();
+    return {normal[0][0], normal[0][1], normal[0][2]};
+}
+
+/// That of the upper plane across a direction.
+Wall piston_of(const Box& box, int direction) {
+    for (const Wall& wall : walls_of(box))
+        if (wall.number == 2 * static_cast<std::uint32_t>(direction) + 1) return wall;
+    return {};
+}
+
+/// Theory, eq. (10.1), and (10.3) of a plane.
+Vec3 moved_by_forces(const State& state, const PressureControl& control, double kT, const StepContext& context) {
+    Vec3 edges = state.box.edges();
+    if (!state.box_force) return edges;
+    const Vec3& force = *state.box_force;
+    const std::array<double, 3> normal = noise_of_the_box(context);
     const double noise = std::sqrt(2.0 * kT * control.mobility * context.time_step);
+    if (control.moves == Moves::plane) {
+        const int k = control.piston;
+        const double load = control.external * area_of(piston_of(state.box, k), state.box);
+        edges[k] += control.mobility * (force[k] - load) * context.time_step + noise * normal[0];
+        return edges;
+    }
+    const bool each = control.moves == Moves::edges;
+    const double mean = (force.x + force.y + force.z) / 3.0;
+    const Vec3 virial = each ? force : Vec3{mean, mean, mean};
+    const double free = (static_cast<double>(state.rods.size()) + 1.0) * kT - control.external * state.box.volume();
     for (int k = 0; k < 3; ++k) {
-        const auto own = static_cast<std::size_t>(control.orthogonal ? k : 0);
-        const double strain = control.mobility * (free + virial[k]) * context.time_step + noise * normal[0][own];
-        edges[k] *= std::exp(control.orthogonal ? strain : strain / 3.0);
+        const auto own = static_cast<std::size_t>(each ? k : 0);
+        const double strain = control.mobility * (free + virial[k]) * context.time_step + noise * normal[own];
+        edges[k] *= std::exp(each ? strain : strain / 3.0);
     }
     return edges;
+}
+
+}  // namespace
+
+Vec3 edges_under_pressure(const State& state, const PressureControl& control, double kT, const StepContext& context) {
+    return kT > 0.0 ? moved_by_forces(state, control, kT, context)
+                    : opened(state.box.edges(), control, -control.rate, context.time_step);
+}
+
+Vec3 force_on_box(const StepReport& report, const PressureControl& control) {
+    Vec3 force;
+    for (int k = 0; k < 3; ++k)
+        force[k] = control.moves == Moves::plane
+                       ? report.wall_force[2 * static_cast<std::size_t>(k) + 1]
+                       : report.centre_of_mass_virial(k, k) + trace(report.spring_virial) / 3.0;
+    return force;
+}
+
+BoxColumn opening_of(const Box& before, const PressureControl& control) {
+    if (control.moves != Moves::plane) return {control.rate / (control.external * before.volume()), std::nullopt};
+    const Wall piston = piston_of(before, control.piston);
+    return {control.rate / (control.external * area_of(piston, before)), piston.body()};
+}
+
+Vec3 opened(const Vec3& edges, const PressureControl& control, double rate, double time_step) {
+    if (control.moves != Moves::plane) return std::exp(rate * time_step / 3.0) * edges;
+    Vec3 moved = edges;
+    moved[control.piston] += rate * time_step;
+    return moved;
 }
 
 }  // namespace jostle

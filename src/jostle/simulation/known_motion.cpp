@@ -58,6 +58,8 @@ void find_known_motion(const State& state, std::span<const std::unique_ptr<Motio
     std::vector<Vec3>&linear = known.velocity.linear, &angular = known.velocity.angular;
     parallel_for(rods.size(), [&](std::size_t i) { linear[i] = angular[i] = Vec3{}; });
     for (const auto& motion : motions) motion->add_velocities(known.velocity, rods, mobility, context);
+    if (const AxialStresslets stresslets = sum_of_stresslets(motions, rods, context); stresslets.any())
+        mobility.add_axial_flow(stresslets, known.velocity);
     add_velocities_of_forces(state, motions, mobility, context, known);
     keep_in_plane(state.box, linear, angular);
 

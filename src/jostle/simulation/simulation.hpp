@@ -93,13 +93,16 @@ private:
     std::optional<Vec3> edges_of_step();
     void renumber();
     void rows_change();
-    ContactProblem posed_problem(const MobilityOperator& mobility, Contacts found) const;
+    ContactProblem posed_problem(const MobilityOperator& mobility, Contacts found, const BoxColumn& opening) const;
     std::vector<double> gap_velocities(const Contacts& contacts) const;
     std::optional<ContactSolution> resolved(ContactProblem& problem, const StepGeometry& geometry, StepReport& report);
     ContactSolution repelled(const ContactProblem& problem) const;
     EndConfiguration end_configuration(const ContactMatrix& contact_matrix, const ContactSolution& solution);
     Contacts relinearised(const ContactProblem& problem, const EndConfiguration& end) const;
-    void advance();
+    void advance(StepReport& report);
+    void open_box(StepReport& report);
+    /// Whether contact forces do, in the step in which they act.
+    bool opens_box() const { return settings_.pressure && settings_.kT == 0.0; }
     void turn_round(std::span<const std::uint32_t> rows);
     void divide();
     StepContext context() const { return {settings_.seed, state_.clock.step, settings_.time_step}; }

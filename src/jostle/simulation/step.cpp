@@ -67,6 +67,7 @@ std::optional<StepReport> Simulation::attempt() {
     else
         threads_.begin_step(state_.rods.size());
     renumber();
+    const BoxColumn opening = opens_box() ? opening_of(state_.box, *settings_.pressure) : BoxColumn{};
     Squeezing squeezing(state_, edges_of_step(), search_);
     report.stretch = squeezing.stretch();
     Shearing shearing(state_, settings_.flow, settings_.time_step, search_);
@@ -91,7 +92,7 @@ std::optional<StepReport> Simulation::attempt() {
     report.max_overlap = domain_.ranks().largest(std::max(report.max_overlap, fixed_rod_search_.find(geometry, found)));
     timer.finish(StepPhase::find_contacts);
 
-    ContactProblem problem = posed_problem(*mobility, std::move(found));  // 3  A, b; gamma
+    ContactProblem problem = posed_problem(*mobility, std::move(found), opening);  // 3  A, b; gamma
     auto solution = settings_.rods_are_soft() ? repelled(problem) : resolved(problem, geometry, report);
     if (!solution) {
         gather(geometry.ranges.skin);
@@ -110,27 +111,24 @@ std::optional<StepReport> Simulation::attempt() {
     measure_stress(step, settings_, half_way_axis_, report, moments_);  // 4
     timer.finish(StepPhase::measure_stress);
 
+    if (settings_.pressure && settings_.kT > 0.0) state_.box_force = force_on_box(report, *settings_.pressure);
     squeezing.keep();
     shearing.keep();
-    if (settings_.pressure) {
-        state_.box_force.emplace();
-        for (int k = 0; k < 3; ++k)
-            (*state_.box_force)[k] = report.centre_of_mass_virial(k, k) + trace(report.spring_virial) / 3.0;
-    }
     lengthening.keep();
-    advance();  // 5
+    advance(report);  // 5
     timer.finish(StepPhase::advance);
     if (!domain_.is_shared()) threads_.end_step();
     return report;
 }
 
-ContactProblem Simulation::posed_problem(const MobilityOperator& mobility, Contacts found) const {
+ContactProblem Simulation::posed_problem(const MobilityOperator& mobility, Contacts found,
+                                         const BoxColumn& opening) const {
     std::vector<double> b, start;
     if (!settings_.rods_are_soft()) b = gap_velocities(found);
     if (settings_.warm_start) start = starting_forces(found, state_.rods.id, state_.previous_forces);
     const double compliance = settings_.corrects_brownian_motion() ? contact_compliance : 0.0;
     return ContactProblem(state_.rods, mobility, std::move(found), std::move(b), settings_.time_step, compliance,
-                          std::move(start), domain_);
+                          std::move(start), domain_, opening);
 }
 
 // Theory 2.3: 0 <= A gamma + b  perp  gamma >= 0, with more contacts where forces turn out to bring rods together.
@@ -225,7 +223,7 @@ Contacts Simulation::relinearised(const ContactProblem& problem, const EndConfig
 
 // Theory 2.4: rods with contacts go where forces take them, the others where the known motion does; then what happens
 // between two steps.
-void Simulation::advance() {
+void Simulation::advance(StepReport& report) {
     Rods& rods = state_.rods;
     if (growth_) growth_->slow_down(rods, solution_.rods, solution_.forces, settings_.time_step);
     std::vector<Vec3>&centre = known_.end.centre, &axis = known_.end.axis;
@@ -237,12 +235,21 @@ void Simulation::advance() {
     });
     rods.centre.swap(centre);
     rods.axis.swap(axis);
+    if (opens_box()) open_box(report);
     parallel_for(rods.size(), [&](std::size_t i) { state_.box.wrap(rods.centre[i], rods.image[i]); });
     for (const auto& motion : motions_) turn_round(motion->turned_round(rods, context()));
     ++state_.clock.step;
     state_.clock.time = static_cast<double>(state_.clock.step) * settings_.time_step;
     if (growth_) divide();
     if (settings_.warm_start) state_.previous_forces = previous_forces(contacts_, solution_.gamma, contact_ids());
+}
+
+// Theory 10: contact forces have opened the box, and the centres go with it.
+void Simulation::open_box(StepReport& report) {
+    const Vec3 edges = opened(state_.box.edges(), *settings_.pressure, solution_.box_rate, settings_.time_step);
+    Squeezing opening(state_, edges, search_);
+    opening.keep();
+    for (int k = 0; k < 3; ++k) report.stretch[k] *= opening.stretch()[k];
 }
 
 // Theory 2.6: head and tail change names, and no point of a body moves, nor one that a spring holds.

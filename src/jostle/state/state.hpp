@@ -19,7 +19,7 @@ struct State {
     std::vector<Spring> springs = {};  ///< between the rods, by ids
     std::vector<PreviousForce> previous_forces =
         {};                              ///< by ids; empty unless steps begin from those of the step before
-    std::optional<Vec3> box_force = {};  ///< on the logarithms of the edges, by the last step; none where the box stays
+    std::optional<Vec3> box_force = {};  ///< of the last step, `force_on_box`; none where no bath changes the box
 };
 
 /// The same state, its rods in the order of ids, its forces in that of (i, j, feature, upper, gamma).

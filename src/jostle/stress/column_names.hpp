@@ -18,7 +18,14 @@ inline constexpr std::array<const char*, 6> orientation_stress_column_names = {
 inline constexpr std::array<const char*, 9> active_stress_column_names = {
     "stress_active_xx", "stress_active_xy", "stress_active_xz", "stress_active_yx", "stress_active_yy",
     "stress_active_yz", "stress_active_zx", "stress_active_zy", "stress_active_zz"};
-/// The same of springs, where there are some.
+/// Six of the stresslets of swimmers and of thermal turning, where swimmers stir the fluid: xx xy xz yy yz zz.
+inline constexpr std::array<const char*, 6> dipole_stress_column_names = {"stress_dipoles_xx", "stress_dipoles_xy",
+                                                                          "stress_dipoles_xz", "stress_dipoles_yy",
+                                                                          "stress_dipoles_yz", "stress_dipoles_zz"};
+inline constexpr std::array<const char*, 6> thermal_stress_column_names = {"stress_thermal_xx", "stress_thermal_xy",
+                                                                           "stress_thermal_xz", "stress_thermal_yy",
+                                                                           "stress_thermal_yz", "stress_thermal_zz"};
+/// Nine of springs, where there are some.
 inline constexpr std::array<const char*, 9> spring_stress_column_names = {
     "stress_springs_xx", "stress_springs_xy", "stress_springs_xz", "stress_springs_yx", "stress_springs_yy",
     "stress_springs_yz", "stress_springs_zx", "stress_springs_zy", "stress_springs_zz"};

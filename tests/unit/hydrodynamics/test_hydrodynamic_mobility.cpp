@@ -201,7 +201,7 @@ TEST_CASE("the thermal drift is div M: against central differences over all turn
         const Rods rods = chance.rods(3, 5.0, {6, 6, 6});
         const HydrodynamicMobility model(1.0, 1e-6, periodic ? std::optional(6.0) : std::nullopt);
         Velocities drift(3), difference(3);
-        model.at(rods, box)->add_drift(1.0, drift);
+        model.at(rods, box)->add_axial_flow({.kT = 1.0, .dipole = {}}, drift);
         constexpr double angle = 1e-4;
         for (std::size_t j = 0; j < 3; ++j)
             for (int k = 0; k < 3; ++k)
@@ -282,7 +282,7 @@ TEST_CASE("flow, noise and drift have the same bits for any number of threads an
             Velocities u;
             mobility->apply(pushed, u);
             mobility->add_square_root({seed, 3, Stream::brownian, 0}, 1.5, u);
-            mobility->add_drift(0.8, u);
+            mobility->add_axial_flow({.kT = 0.8, .dipole = {}}, u);
             return u;
         };
         const Velocities expected = all_of(rods, forces, 1);

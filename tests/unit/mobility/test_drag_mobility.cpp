@@ -114,7 +114,7 @@ TEST_CASE("M is symmetric, positive on all but the spins, and B is its root; the
     // The root of every block is its symmetric one.
     CHECK((vector_of(noisy) - root_of(m) * noise_of(rods)).cwiseAbs().maxCoeff() <= 1e-7 * std::sqrt(scale));
     Velocities drifting(rods.size());
-    mobility->add_drift(3.0, drifting);
+    mobility->add_axial_flow({.kT = 3.0, .dipole = {1.0, 2.0}}, drifting);
     CHECK(vector_of(drifting).cwiseAbs().maxCoeff() == 0.0);
 
     const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(m).eigenvalues();

@@ -207,7 +207,29 @@ TEST_CASE("the propulsion's force is U/mu_parallel along the axis, and none in a
     CHECK(!propulsion.forces(rods, context).has_value());  // or the fluid would feel it
 }
 
+TEST_CASE("a swimmer stirs the fluid with its dipole while it swims, and not in a tumble") {
+    const Swimming swimming{.speed = 2.0, .tumble_rate = 3.0, .tumble_time = 0.2, .force_dipole = -1.5};
+    const SelfPropulsion propulsion(swimming);
+    const Rods rods = equal_rods(200);
+    const StepContext context = {seed, 1000, 0.01};
+    const AxialStresslets stresslets = propulsion.stresslets(rods, context);
+    REQUIRE(stresslets.dipole.size() == rods.size());
+    CHECK(stresslets.kT == 0.0);
+    Velocities known(rods.size());
+    add_swimming(known, propulsion, rods, context);
+    std::size_t tumbling = 0;
+    for (std::size_t i = 0; i < rods.size(); ++i) {
+        const bool swims = norm(known.linear[i]) > 0.0;
+        CHECK(stresslets.dipole[i] == (swims ? -1.5 : 0.0));
+        tumbling += swims ? 0 : 1;
+    }
+    CHECK(tumbling > 50);  // 1 - exp(-0.6) of 200: 90 +- 7
+    CHECK(!SelfPropulsion(2.0).stresslets(rods, context).any());
+}
+
 TEST_CASE("numbers that make no sense are refused by key") {
+    CHECK(refused_key({.speed = 1.0, .force_dipole = std::numeric_limits<double>::infinity()}) ==
+          "motion.force_dipole");
     const double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
     CHECK(refused_key({.speed = infinity}) == "motion.self_propulsion");
     for (const double bad : {-1.0, infinity, nan}) {

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "jostle/contact/contacts.hpp"
+#include "jostle/rods/body.hpp"
+#include "jostle/rods/rods.hpp"
+
+namespace jostle {
+
+/// A box that contact forces open, or a plane of it that they push outwards, as one more body: A is A + m w w^T
+/// (theory, eq. 10.4).
+struct BoxColumn {
+    double mobility = 0.0;               ///< m; 0: the box stays
+    std::optional<std::uint32_t> plane;  ///< body that is pushed; none: the logarithm of the volume grows
+
+    /// w: by how much faster the gap of a contact that touches opens than the body moves.
+    double of(const Contact& contact, const Rods& rods) const {
+        if (plane) return contact.i == *plane ? 1.0 : 0.0;
+        if (is_fixed(contact.i)) return 0.0;
+        const Vec3 arms = contact.arm_i * rods.axis[contact.i] - contact.arm_j * rods.axis[contact.j];
+        const double touching = 0.5 * (rods.diameter[contact.i] + rods.diameter[contact.j]);  // as in the stress
+        return (touching + dot(arms, contact.normal)) / 3.0;
+    }
+};
+
+}  // namespace jostle

@@ -1,0 +1,105 @@
+#include "jostle/contact_problem/near_first.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "jostle/lcp/adaptive_bb.hpp"
+#include "jostle/parallel/parallel_for.hpp"
+
+namespace jostle {
+
+namespace {
+
+/// Missed contacts are looked for early from so many tolerances on.
+constexpr double early_search_tolerances = 30.0;
+/// The near part is solved to this part of the residual, and no finer than to this part of the tolerance.
+constexpr double near_part = 0.05, finest_near_part = 0.2;
+constexpr std::uint64_t most_near_applications = 300;
+
+}  // namespace
+
+NearFirst::NearFirst(const ContactProblem& problem, const LcpSettings& settings) : ContactSolver(problem, settings) {
+    if (problem.start().empty()) return;
+    problem_.complete(solution_);
+    ++outcome_.iterations;
+}
+
+bool NearFirst::run_to_next_stop() {
+    const bool first = !among_;
+    const bool grown = problem_has_grown();
+    if (at_solution_ && !grown) return false;
+    if (first || grown) take_in_contacts();
+    if (at_solution_ || first) ++outcome_.solves;
+    at_solution_ = false;
+    for (;;) {
+        const double now = residual();
+        if (now <= settings_.tolerance) {
+            if (const double all = verified(); all <= settings_.tolerance) return end(all);
+            continue;
+        }
+        if (!std::isfinite(now) || outcome_.iterations >= settings_.max_iterations || settings_.is_interrupted())
+            return end(now);
+        if (!searched_early_ && now <= early_search_tolerances * settings_.tolerance) return stop_at_candidate();
+        improve(now);
+    }
+}
+
+/// A gamma + b of all contacts, from the velocities of all rods, which are up to date.
+void NearFirst::take_in_contacts() {
+    velocity_.resize(problem_.size());
+    problem_.matrix().rates(solution_.velocities, solution_.gamma, velocity_);
+    parallel_for(velocity_.size(), [&](std::size_t l) { velocity_[l] += problem_.constant()[l]; });
+    among_.emplace(problem_.matrix());
+}
+
+double NearFirst::residual() const {
+    return lcp_residual(problem_.lcp(), settings_.residual, solution_.gamma, velocity_);
+}
+
+/// The residual with the velocities of all rods as they follow from gamma.
+double NearFirst::verified() {
+    problem_.complete(solution_);
+    ++outcome_.iterations;
+    problem_.matrix().rates(solution_.velocities, solution_.gamma, velocity_);
+    parallel_for(velocity_.size(), [&](std::size_t l) { velocity_[l] += problem_.constant()[l]; });
+    return residual();
+}
+
+bool NearFirst::stop_at_candidate() {
+    searched_early_ = true;
+    verified();
+    return true;
+}
+
+bool NearFirst::end(double residual) {
+    LcpResult result{.solution = solution_.gamma, .velocity = velocity_, .residual = residual};
+    outcome_.status = lcp_status(problem_.lcp(), settings_, result);
+    if (outcome_.status != LcpStatus::converged && settings_.is_interrupted()) outcome_.status = LcpStatus::interrupted;
+    outcome_.residual = residual;
+    at_solution_ = outcome_.status == LcpStatus::converged;
+    return at_solution_;
+}
+
+void NearFirst::improve(double residual) {
+    std::vector<double>& gamma = solution_.gamma;
+    std::vector<double> constant(gamma.size()), image(gamma.size());
+    among_->near().apply(gamma, constant);
+    parallel_for(gamma.size(), [&](std::size_t l) { constant[l] = velocity_[l] - constant[l]; });
+    LcpSettings near_settings = settings_;
+    near_settings.tolerance = std::max(near_part * residual, finest_near_part * settings_.tolerance);
+    near_settings.max_iterations = most_near_applications;
+    const LcpProblem near{among_->near(), constant, problem_.time_step()};
+    std::vector<double> step = solve_adaptive_bb(near, near_settings, gamma).solution;
+    parallel_for(gamma.size(), [&](std::size_t l) { step[l] -= gamma[l]; });
+    among_->whole().apply(step, image);
+    ++outcome_.iterations;
+    const double slope = parallel_sum<double>(gamma.size(), [&](std::size_t l) { return step[l] * velocity_[l]; });
+    const double curvature = parallel_sum<double>(gamma.size(), [&](std::size_t l) { return step[l] * image[l]; });
+    const double length = curvature > 0.0 ? std::clamp(-slope / curvature, 0.0, 1.0) : 1.0;
+    parallel_for(gamma.size(), [&](std::size_t l) {
+        gamma[l] = std::max(gamma[l] + length * step[l], 0.0);
+        velocity_[l] += length * image[l];
+    });
+}
+
+}  // namespace jostle
