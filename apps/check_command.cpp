@@ -48,11 +48,11 @@ double seconds_per_rod_and_step(double volume_fraction) {
 /// What the fluid adds: more blobs of force for longer rods (docs/guide/hydrodynamics.md).
 double seconds_of_fluid_per_rod_and_step(const Scene& scene) {
     if (scene.mobility.model != MobilityModel::hydrodynamic) return 0.0;
-    return (20.0 + 8.0 * scene.rods.length / scene.rods.diameter) * 1e-6;
+    return (12.0 + 8.0 * scene.rods.length / scene.rods.diameter) * 1e-6;
 }
 double bytes_of_fluid_per_rod(const Scene& scene) {
     if (scene.mobility.model != MobilityModel::hydrodynamic) return 0.0;
-    return 4000.0 + 1200.0 * scene.rods.length / scene.rods.diameter;
+    return 5000.0 + 1200.0 * scene.rods.length / scene.rods.diameter;
 }
 double bytes_per_rod(double volume_fraction) {
     return 480.0 + 2000.0 * volume_fraction + 9000.0 * volume_fraction * volume_fraction;

@@ -31,12 +31,12 @@ ExitCode accompany(const RunOptions& options, Together& together) {
 }  // namespace
 
 ExitCode launched_run(const RunOptions& options, const std::function<ExitCode(Together&)>& first) {
-    if (!LaunchedRanks::are_built_in() && launch_in_environment().rank > 0)
-        return ExitCode::bad_input;  // the first tells
+    const bool is_first = launch_in_environment().rank == 0;  // which tells
+    if (!is_first) stop_request::say_nothing();
+    if (!LaunchedRanks::are_built_in() && !is_first) return ExitCode::bad_input;
     LaunchedRanks launched;
     const Ranks ranks = launched.ranks();
     parallel::share_processors(launched.on_this_machine());
-    if (ranks.rank() > 0) stop_request::say_nothing();
     Together together(ranks);
     bool has_ended = false;
     const auto play_part = [&] {

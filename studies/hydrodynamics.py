@@ -20,7 +20,7 @@ STATES = (("spheres", 0, 0.1, 200, 40000), ("spheres", 0, 0.2, 200, 30000), ("sp
           ("rods", 5, 0.1, 200, 20000), ("rods", 5, 0.2, 200, 15000), ("rods", 5, 0.3, 200, 12000), ("nematic", 5, 0.45, 200, 12000))
 QUICK_STATES = (("spheres", 0, 0.2, 60, 5000), ("rods", 5, 0.1, 40, 2500))
 RMS_STEP = 0.05
-# Of swimmers L/D = 5: U_0 = 5 kT/(mu D2), so that U_0/(L D_R) is some 80; p = +-2 mu U_0 (L + D)^2.
+# Of swimmers L/D = 5: U_0 = 5 kT/(mu D2), so that U_0/(L D_R) is 154; p = +-2 mu U_0 (L + D)^2.
 SPEED, DIPOLE, SWIMMERS, SWIM_PHI, SWIM_STEPS = 5.0, 360.0, 200, 0.05, 20000
 QUICK_SWIMMERS, QUICK_SWIM_STEPS = 40, 2000
 KINDS = {"pushers": ("hydrodynamic", DIPOLE), "pullers": ("hydrodynamic", -DIPOLE), "without a dipole": ("hydrodynamic", 0.0), "dry": ("capsule", 0.0)}

@@ -85,7 +85,8 @@ void SimulationInPython::step() {
             broken_ = simulation_.clock().step != before;
             throw;
         }
-        failure_ = step_failure(*report_, scene_.scene, smallest_diameter(scene_.scene, simulation_.rods())).value_or("");
+        failure_ =
+            step_failure(*report_, scene_.scene, smallest_diameter(scene_.scene, simulation_.rods())).value_or("");
         if (report_->status != LcpStatus::converged) return;
         const Due due = measurement_.add(*report_, simulation_);
         for (Recording& recording : recordings_)

@@ -231,8 +231,7 @@ Rods Domain::at_first_rank(const Rods& rods) const {
         const bool are_more = ranks_.any(sent < own.size());
         std::vector<CarriedRod> arrived;
         for (const auto& of_rank : ranks_.deal(to)) arrived.insert(arrived.end(), of_rank.begin(), of_rank.end());
-        std::sort(arrived.begin(), arrived.end(),
-                  [](const CarriedRod& a, const CarriedRod& b) { return a.id < b.id; });
+        std::sort(arrived.begin(), arrived.end(), [](const CarriedRod& a, const CarriedRod& b) { return a.id < b.id; });
         for (const CarriedRod& rod : arrived) append(all, rod, carries);
         if (!are_more) return all;
     }

@@ -35,9 +35,8 @@ void add_state_columns(const Scene& scene, Series& series) {
                        [](const RowState& row) { return static_cast<double>(row.simulation.rods_in_all()); }});
     const char* fraction = dimensions_of(scene) == 2 ? "area of the rods at this step over area of the box"
                                                      : "volume of the rods at this step over volume of the box";
-    columns.push_back({{"phi", "1", "phi", fraction, ""}, [](const RowState& row) {
-                           return row.rods_volume / row.volume;
-                       }});
+    columns.push_back(
+        {{"phi", "1", "phi", fraction, ""}, [](const RowState& row) { return row.rods_volume / row.volume; }});
 }
 
 void add_pressure_columns(const Scene& scene, Series& series) {
@@ -266,12 +265,11 @@ RowState::RowState(const Simulation& of, const StepSums& since_last_row)
       rods_volume(volume_of_rods(of)),
       kT(sums.kT ? *sums.kT / sums.steps : of.settings().kT),
       density(sums.rods / sums.steps / volume),
-      stress(assembly_stress(
-          density, kT, volume,
-          {.collision = (1.0 / sums.steps) * sums.collision_virial,
-           .orientation = orientation_virial(of),
-           .springs = (1.0 / sums.steps) * sums.spring_virial},
-          of.box().dimensions())),
+      stress(assembly_stress(density, kT, volume,
+                             {.collision = (1.0 / sums.steps) * sums.collision_virial,
+                              .orientation = orientation_virial(of),
+                              .springs = (1.0 / sums.steps) * sums.spring_virial},
+                             of.box().dimensions())),
       order(order_of(of)) {
     if (const auto& flow = of.settings().flow)
         flow_virial = sum_of_flow_stresses(of.rods(), *of.mobility().at(of.rods(), of.box()), *flow, of.clock(),
