@@ -27,7 +27,8 @@ struct Volumes {
     double mean = 0.0, error = 0.0, variance = 0.0, pressure = 0.0, pressure_error = 0.0;
 };
 
-Volumes measured(const Scene& scene, const Box& box, int settling, int blocks, int steps) {
+Volumes measured(Scene scene, const Box& box, int settling, int blocks, int steps) {
+    scene.box.edges = box.edges();
     Simulation simulation = assemble(scene, {box, make_start(scene, box)});
     const auto count = static_cast<double>(simulation.rods().size());
     for (int k = 0; k < settling; ++k) simulation.step();
