@@ -7,7 +7,6 @@
 #include "jostle/error/input_error.hpp"
 #include "jostle/measurement/series_columns.hpp"
 #include "jostle/measurement/side_tables.hpp"
-#include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/validate_scene.hpp"
 #include "jostle/scene_file/rods_of_scene.hpp"
 #include "jostle/scene_file/same_scene.hpp"
@@ -85,8 +84,7 @@ void SimulationInPython::step() {
             broken_ = simulation_.clock().step != before;
             throw;
         }
-        failure_ =
-            step_failure(*report_, scene_.scene, smallest_diameter(scene_.scene, simulation_.rods())).value_or("");
+        failure_ = step_failure(*report_, scene_.scene, simulation_.rods()).value_or("");
         if (report_->status != LcpStatus::converged) return;
         const Due due = measurement_.add(*report_, simulation_);
         for (Recording& recording : recordings_)

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "jostle/scene/rod_size.hpp"
+
 namespace jostle {
 
 std::string description(LcpStatus status) {
@@ -28,6 +30,10 @@ std::optional<std::string> step_failure(const StepReport& report, const Scene& s
         return fmt::format("rods overlap by {:.3g}, more than contact.overlap_limit allows ({:.3g})",
                            report.max_overlap, limit);
     return std::nullopt;
+}
+
+std::optional<std::string> step_failure(const StepReport& report, const Scene& scene, const Rods& rods) {
+    return step_failure(report, scene, smallest_diameter(scene, rods));
 }
 
 }  // namespace jostle

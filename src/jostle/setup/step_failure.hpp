@@ -15,4 +15,7 @@ std::string description(LcpStatus status);
 /// `contact.overlap_limit` of the `thinnest` diameter. Empty after a sound step.
 std::optional<std::string> step_failure(const StepReport& report, const Scene& scene, double thinnest);
 
+/// The same, of the rods of a process that has them all.
+std::optional<std::string> step_failure(const StepReport& report, const Scene& scene, const Rods& rods);
+
 }  // namespace jostle
