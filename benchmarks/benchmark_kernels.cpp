@@ -7,7 +7,7 @@
 
 #include "jostle/contact/find_contacts.hpp"
 #include "jostle/contact/segment_distance.hpp"
-#include "jostle/contact/time_step_correction.hpp"
+#include "jostle/contact/reflection.hpp"
 #include "jostle/contact_problem/block_gauss_seidel.hpp"
 #include "jostle/math/random.hpp"
 #include "jostle/motion/brownian_motion.hpp"
@@ -60,7 +60,7 @@ struct PosedProblem {
     std::vector<double> gap_velocities() const {
         std::vector<double> b;
         b.reserve(contacts.size());
-        for (const Contact& contact : contacts.contact) b.push_back(contact.shifted_gap / time_step());
+        for (const Contact& contact : contacts.contact) b.push_back(contact.gap_after / time_step());
         return b;
     }
     double time_step() const { return simulation->settings().time_step; }

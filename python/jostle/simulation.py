@@ -331,7 +331,7 @@ class Simulation:
         Raises InputError where no row is of production yet.
 
         >>> scene = Scene(box={"volume_fraction": 0.1}, rods={"count": 50, "length": 0},
-        ...               time={"equilibration": 1.0, "production": 30.0})
+        ...               time={"equilibration": 1.0, "production": 60.0})
         >>> simulation = Simulation(scene)
         >>> rows = simulation.run()
         >>> Z = simulation.summary()["Z"]

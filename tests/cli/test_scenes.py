@@ -114,7 +114,8 @@ def test_too_short_to_tell(tmp_path):
     result = run(tmp_path)
     assert result.returncode == DONE
     assert re.search(told, result.stderr.splitlines()[-1])
-    assert re.search(f"^equilibrium +=.WARNING: {told}", result.stdout, re.MULTILINE) and "+-" not in result.stdout
+    assert re.search(f"^equilibrium +=.WARNING: {told}", result.stdout, re.MULTILINE)
+    assert "(n_eff" not in result.stdout
     summary = read(tmp_path / "run", "summary.json")
     assert summary["equilibrated"] is False
     assert summary["equilibrium"]["verdict"] == "too short to tell" and re.match(told, summary["equilibrium"]["in_words"])
@@ -122,7 +123,7 @@ def test_too_short_to_tell(tmp_path):
     for name in ("Z", "pressure", "pressure_collision", "nematic_order", "anisotropy"):
         assert summary[name]["standard_error"] is None and re.search(told, summary[name]["no_standard_error_because"])
     assert summary["Z"]["n_eff"] >= 10 and summary["stress_collision"]["standard_error"] == 3 * [3 * [None]]
-    assert summary["time"] < 3.0, "ten times as long would be too short, too: the run ends where production does"
+    assert summary["time"] < 6.0, "ten times as long would be too short, too: the run ends where production does"
 
 
 def test_a_fixed_equilibration_is_tested_all_the_same(tmp_path):

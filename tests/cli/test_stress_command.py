@@ -397,7 +397,7 @@ def test_contacts_of_a_run_of_rods(tmp_path):
               "length": [2.0] * len(axis), "diameter": [1.0] * len(axis),
               **{f"axis_{a}": [n[k] for n in axis.values()] for k, a in enumerate(XYZ)}}
     write_both(tmp_path, {"contacts": contacts, "bodies": bodies})
-    assert len(rows) > 10
+    assert len(rows) > 5
     for convention, prefix in [("rigid_body", "stress"), ("centre_of_mass_virial", "centre_of_mass"),
                                ("centre_line", "centre_line")]:
         expected = np.array([[series[f"{prefix}_{a}{b}"] for b in XYZ] for a in XYZ])

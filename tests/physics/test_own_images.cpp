@@ -18,6 +18,7 @@ namespace {
 struct Case {
     double edge, rms_step, length;
     double precision;  ///< of Z - 1 that the sample must reach, else its mean proves little
+    int steps = 2000;  ///< of each of 50 blocks
 };
 
 double exact(double edge, double length) {
@@ -32,7 +33,8 @@ struct Measured {
 };
 
 Measured measure(const Case& test) {
-    constexpr int blocks = 50, steps = 2000;
+    constexpr int blocks = 50;
+    const int steps = test.steps;
     Scene scene;
     scene.rods.count = 1;
     scene.rods.length = test.length;
@@ -65,7 +67,7 @@ TEST_CASE("a rod that turns between its own images has the exact Z, at small and
                              {1.005, 0.03, 5.0, 0.06},
                              {1.02, 0.03, 5.0, 0.12},
                              {1.2, 0.03, 5.0, 0.3},
-                             {1.001, 0.1, 5.0, 0.01},
+                             {1.001, 0.1, 5.0, 0.01, 3000},
                              {1.005, 0.1, 5.0, 0.015},
                              {1.02, 0.1, 5.0, 0.03},
                              {1.2, 0.1, 5.0, 0.1},
@@ -80,6 +82,6 @@ TEST_CASE("a rod that turns between its own images has the exact Z, at small and
         MESSAGE("exact " << expected << ", found " << measured.Z << " +- " << measured.standard_error);
         CHECK(std::fabs(measured.Z - expected) < 5.0 * measured.standard_error);
         CHECK(measured.standard_error < test.precision * (expected - 1.0));
-        CHECK(measured.largest_overlap < 0.02);
+        CHECK(measured.largest_overlap < 0.03);  // the bound that a step keeps (decision 0061)
     }
 }

@@ -45,7 +45,7 @@ def test_average_is_that_of_the_command(rods):
 
 
 def test_average_has_an_error_bar_in_equilibrium():
-    scene = jostle.Scene(box={"volume_fraction": 0.1}, rods={"count": 50, "length": 0}, time={"equilibration": 1.0, "production": 30.0})
+    scene = jostle.Scene(box={"volume_fraction": 0.1}, rods={"count": 50, "length": 0}, time={"equilibration": 1.0, "production": 60.0})
     simulation = jostle.Simulation(scene)
     simulation.add_column("Z_again", lambda simulation: simulation.series["Z"][-1])
     simulation.run()

@@ -48,7 +48,7 @@ length = 2.0
 [time]
 rms_step = 0.1
 equilibration = 20.0
-production = 80.0
+production = 320.0
 [output]
 field_every = 20
 field_spacing = 1.0

@@ -64,8 +64,7 @@ JOSTLE_VECTORISED void find_bounds(std::size_t count, Batch& batch) {
 namespace {
 
 double interaction_range(const StepGeometry& step, std::size_t row) {
-    return std::max(step.displacement[row] + step.shift.part[row] + step.ranges.displacement_limit,
-                    0.5 * step.ranges.range);
+    return std::max(step.displacement[row] + step.ranges.displacement_limit, 0.5 * step.ranges.range);
 }
 
 }  // namespace
@@ -82,15 +81,13 @@ double CollisionSearch::find(const StepGeometry& step, Contacts& contacts) {
     interaction_range_.resize(rods.size());
     bounds_.resize(rods.size());
     parallel_for(rods.size(), [&](std::size_t i) {
-        const double shift = step.shift.part[i];
         interaction_range_[i] = interaction_range(step, i);
         bounds_[i] = {rods.centre[i],
                       in_float(rods.axis[i]),
                       in_float(step.known.centre[i] - rods.centre[i]),
                       in_float(step.known.axis[i]),
                       static_cast<float>(0.5 * rods.length[i]),
-                      static_cast<float>(0.5 * rods.diameter[i]),
-                      static_cast<float>(shift * shift)};
+                      static_cast<float>(0.5 * rods.diameter[i])};
     });
     neighbours_.set_skin(step.ranges.skin);
     neighbours_.update(rods, step.box, interaction_range_);
@@ -128,12 +125,11 @@ void CollisionSearch::search_block(std::size_t block, const StepGeometry& step, 
     std::array<std::uint16_t, Batch::size> in_block;
     std::size_t count = 0;
     Batch batch;
-    Batch::Row touching;
     const auto sort_out = [&] {
         find_bounds(count, batch);
         for (std::size_t k = 0; k < count; ++k) {
             const float size = batch.half_i[k] + batch.half_j[k] + batch.radii[k];
-            const float slack = batch.bound_after[k] - bound_error * size - touching[k];
+            const float slack = batch.bound_after[k] - bound_error * size;
             const bool clear = batch.gap[k] - gap_error * batch.radii[k] > static_cast<float>(step.ranges.range);
             if (clear && slack >= static_cast<float>(step.ranges.activation_margin))
                 found.inactive.push_back(
@@ -160,7 +156,6 @@ void CollisionSearch::search_block(std::size_t block, const StepGeometry& step, 
         batch.half_i[count] = a.half_length;
         batch.half_j[count] = b.half_length;
         batch.radii[count] = a.radius + b.radius;
-        touching[count] = std::sqrt((a.squared_shift + b.squared_shift) * (i == j ? 2.0F : 1.0F));
         if (++count == Batch::size) sort_out();
     });
     sort_out();
@@ -172,22 +167,18 @@ void CollisionSearch::narrow_phase(std::uint32_t row, const PairKey& key, std::u
     const Vec3 displacement = step.box.displacement(image);
     const PairGeometry before = pair_geometry(step.rods, i, j, displacement, step.rods.centre, step.rods.axis);
     const NearestPoints nearest = nearest_points(before);
-    const double distance = norm(nearest.separation), gap = distance - before.radii;
+    const double gap = norm(nearest.separation) - before.radii;
     found.overlap = std::max(found.overlap, -gap);
 
     const PairGeometry after = pair_geometry(step.rods, i, j, displacement, step.known.centre, step.known.axis);
     const NearestPoints nearest_after = nearest_points(after);
     const double distance_after = norm(nearest_after.separation), gap_after = distance_after - after.radii;
     const bool passed_through = dot(nearest.separation, nearest_after.separation) <= 0.0;
-    const bool always = gap < step.ranges.range || passed_through;
-    double shift = step.shift.bound(i, j);
-    if (always || gap_after - shift < step.ranges.activation_margin) {
-        const std::size_t known = found.contacts.size();
-        shift = append(key, before, nearest, distance, after, step, found.contacts);
-        if (always || gap_after - shift < step.ranges.activation_margin) return;
-        found.contacts.resize(known);
+    if (gap < step.ranges.range || passed_through || gap_after < step.ranges.activation_margin) {
+        append(key, before, nearest, after, step, found.contacts);
+        return;
     }
-    const double slack = gap_after - shift - 1e-6 * after.radii;
+    const double slack = gap_after - 1e-6 * after.radii;
     // From the rod that the neighbour list names first to the other.
     const auto normal = in_float((row == i ? 1.0 : -1.0) / distance_after * nearest_after.separation);
     found.inactive.push_back({row,
@@ -196,22 +187,18 @@ void CollisionSearch::narrow_phase(std::uint32_t row, const PairKey& key, std::u
                               in_block});
 }
 
-/// Appends the contacts of a pair, with their shifted gaps. Returns the largest of their shifts.
-double CollisionSearch::append(const PairKey& key, const PairGeometry& before, const NearestPoints& nearest,
-                               double distance, const PairGeometry& after, const StepGeometry& step,
-                               Contacts& contacts) const {
+/// Appends the contacts of a pair.
+void CollisionSearch::append(const PairKey& key, const PairGeometry& before, const NearestPoints& nearest,
+                             const PairGeometry& after, const StepGeometry& step, Contacts& contacts) const {
     const std::size_t first = contacts.size();
     const auto own_image = key.i == key.j && !step.forces_at_start ? contact_with_own_image(key, after) : std::nullopt;
     if (own_image) {
         contacts.push_back(*own_image, key.image, ContactFeature::nearest);
-        contacts.contact[first].gap = distance - before.radii;
-        const double shift = step.shift.exact(*own_image);
-        contacts.contact[first].shifted_gap -= shift;
-        return shift;
+        contacts.contact[first].gap = norm(nearest.separation) - before.radii;
+        return;
     }
-    append_contacts(key, before, nearest, distance, interaction_range_[key.i] + interaction_range_[key.j],
-                    step.box.dimensions(), contacts);
-    return set_shifted_gaps(step.shift, after, first, contacts);
+    append_moving_contacts(key, {before, nearest, after, step.normals_after},
+                           interaction_range_[key.i] + interaction_range_[key.j], step.box.dimensions(), contacts);
 }
 
 /// Inactive pairs are no contacts until they are activated; once the list is another one, any pair may be one.
@@ -246,15 +233,7 @@ bool CollisionSearch::may_meet(const InactivePair& pair, const Displacement& i, 
 /// Whether a pair that is no contact touches at the end of the step.
 bool CollisionSearch::is_violated(const PairKey& key, const StepGeometry& step, const Contacts& contacts,
                                   const EndConfiguration& end) const {
-    const auto& [i, j, image] = key;
-    const PairGeometry after = end.pair(step.box, key);
-    const double gap = pair_gap(after);
-    if (gap >= step.shift.bound(i, j) || is_contact(key, contacts)) return false;
-    const PairGeometry before =
-        pair_geometry(step.rods, i, j, step.box.displacement(image), step.rods.centre, step.rods.axis);
-    const NearestPoints nearest = nearest_points(before);
-    Contacts points;
-    return gap < append(key, before, nearest, norm(nearest.separation), after, step, points);
+    return pair_overlaps(end.pair(step.box, key)) && !is_contact(key, contacts);
 }
 
 /// By rows, where pairs look for them: 0 for rods without contacts.
@@ -329,8 +308,7 @@ Contacts CollisionSearch::activate(std::span<const PairKey> violated, const Step
         const Vec3 displacement = step.box.displacement(image);
         const PairGeometry before = pair_geometry(step.rods, i, j, displacement, step.rods.centre, step.rods.axis);
         const PairGeometry after = pair_geometry(step.rods, i, j, displacement, step.known.centre, step.known.axis);
-        const NearestPoints nearest = nearest_points(before);
-        append(key, before, nearest, norm(nearest.separation), after, step, contacts);
+        append(key, before, nearest_points(before), after, step, contacts);
         activated_.push_back(in_order_of_rows(key));
     }
     std::sort(activated_.begin(), activated_.end());

@@ -7,7 +7,6 @@
 
 #include "jostle/contact/contacts.hpp"
 #include "jostle/contact/end_configuration.hpp"
-#include "jostle/contact/gap_shift.hpp"
 #include "jostle/contact/neighbour_list.hpp"
 #include "jostle/contact/pair_contacts.hpp"
 
@@ -28,8 +27,8 @@ struct StepGeometry {
     const Box& box;
     const Configuration& known;            ///< (N) after the known motion
     std::span<const double> displacement;  ///< (N) by the known motion, of any point of the rod, at most
-    GapShift shift;
     SearchRanges ranges;
+    double normals_after = 0.0;    ///< normals and arms of contacts are those after this part of the known motion
     bool forces_at_start = false;  ///< forces follow from where rods are before the step: there they meet their images
 };
 
@@ -81,7 +80,7 @@ private:
     struct RodBounds {
         Vec3 centre;
         std::array<float, 3> axis, moved, axis_after;
-        float half_length, radius, squared_shift;
+        float half_length, radius;
     };
     struct InactivePair {  ///< there are several a rod, so they take few bytes
         std::uint32_t i;   ///< the smaller row: that which the neighbour list names
@@ -111,15 +110,15 @@ private:
     void search_block(std::size_t block, const StepGeometry& step, Found& found);
     void narrow_phase(std::uint32_t row, const PairKey& key, std::uint16_t in_block, const StepGeometry& step,
                       Found& found) const;
-    double append(const PairKey& key, const PairGeometry& before, const NearestPoints& nearest, double distance,
-                  const PairGeometry& after, const StepGeometry& step, Contacts& contacts) const;
+    void append(const PairKey& key, const PairGeometry& before, const NearestPoints& nearest,
+                const PairGeometry& after, const StepGeometry& step, Contacts& contacts) const;
     static bool may_meet(const InactivePair& pair, const Displacement& i, const Displacement& j);
     bool is_contact(const PairKey& key, const Contacts& contacts) const;
     bool is_violated(const PairKey& key, const StepGeometry& step, const Contacts& contacts,
                      const EndConfiguration& end) const;
 
     NeighbourList neighbours_{0.0};
-    std::vector<double> interaction_range_;      ///< (N) displacement + shift + displacement limit
+    std::vector<double> interaction_range_;      ///< (N) displacement + displacement limit
     double largest_range_ = 0.0;                 ///< of these, at the last `is_covered`
     std::vector<RodBounds> bounds_;              ///< (N)
     std::vector<Found> shares_;                  ///< (threads), in the order of their blocks

@@ -54,10 +54,6 @@ struct EndConfiguration {
         if (local == no_local_index) return known.axis[row];
         return axis_at_end(rods, row, known_velocity, velocity[local], time_step);
     }
-    /// Of a body by contact forces: fixed ones stay.
-    ContactVelocity velocity_of(std::uint32_t body) const {
-        return is_fixed(body) ? ContactVelocity{} : velocity[local_index[body]];
-    }
     /// The pair of rods as it is there.
     PairGeometry pair(const Box& box, const PairKey& key) const {
         const Vec3 between = centre(key.j) + box.displacement(key.image) - centre(key.i);

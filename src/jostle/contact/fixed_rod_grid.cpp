@@ -115,7 +115,16 @@ std::span<const FixedCopy> FixedRodGrid::near(const Vec3& point) const {
 
 PairGeometry FixedRodGrid::pair(const FixedCopy& copy, const Rods& rods, std::size_t row, const Vec3& centre,
                                 const Vec3& axis) const {
-    const Rods& fixed = *fixed_;
+    return pair_with(*fixed_, copy, rods, row, centre, axis);
+}
+
+FixedCopy copy_of(const Contact& contact, const Image& image, const Box& box) {
+    const std::uint32_t number = number_of_fixed_rod(contact.i);
+    return {number, image, box.fixed_rods()->centre[number] - box.displacement(image)};
+}
+
+PairGeometry pair_with(const Rods& fixed, const FixedCopy& copy, const Rods& rods, std::size_t row, const Vec3& centre,
+                       const Vec3& axis) {
     const std::uint32_t f = copy.number;
     return {centre - copy.centre,  fixed.axis[f],          axis,
             0.5 * fixed.length[f], 0.5 * rods.length[row], 0.5 * (fixed.diameter[f] + rods.diameter[row])};

@@ -31,6 +31,13 @@ struct FixedCopy {
     Vec3 centre;  ///< of the copy
 };
 
+/// The one that a contact is with.
+FixedCopy copy_of(const Contact& contact, const Image& image, const Box& box);
+
+/// A fixed rod and rod `row` with this centre and axis.
+PairGeometry pair_with(const Rods& fixed, const FixedCopy& copy, const Rods& rods, std::size_t row, const Vec3& centre,
+                       const Vec3& axis);
+
 /// Which fixed rods are near a place: they do not move, so a grid of cells lists them once.
 class FixedRodGrid {
 public:

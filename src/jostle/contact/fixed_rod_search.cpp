@@ -10,29 +10,14 @@ namespace jostle {
 
 namespace {
 
-/// The contacts of a pair, their gaps not shifted.
-void append_points(const FixedCopy& copy, std::uint32_t row, const PairGeometry& pair, const NearestPoints& nearest,
-                   double range, Contacts& contacts) {
-    const PairKey key = {body_of_fixed_rod(copy.number), row, copy.image};
-    append_contacts(key, pair, nearest, norm(nearest.separation), range, 3, contacts);
+PairKey key_of(const FixedCopy& copy, std::uint32_t row) {
+    return {body_of_fixed_rod(copy.number), row, copy.image};
 }
 
 /// Whether a pair's middle points are farther apart than it could touch from.
 bool are_apart(const PairGeometry& pair, double range) {
     const double farthest = pair.half_i + pair.half_j + pair.radii + range;
     return squared_norm(pair.between) > farthest * farthest;
-}
-
-FixedCopy copy_of(const Contact& contact, const Image& image, const Box& box) {
-    const std::uint32_t number = number_of_fixed_rod(contact.i);
-    return {number, image, box.fixed_rods()->centre[number] - box.displacement(image)};
-}
-
-PairGeometry pair_with(const Rods& fixed, const FixedCopy& copy, const Rods& rods, std::size_t row, const Vec3& centre,
-                       const Vec3& axis) {
-    const std::uint32_t f = copy.number;
-    return {centre - copy.centre,  fixed.axis[f],          axis,
-            0.5 * fixed.length[f], 0.5 * rods.length[row], 0.5 * (fixed.diameter[f] + rods.diameter[row])};
 }
 
 }  // namespace
@@ -44,7 +29,7 @@ double FixedRodSearch::find(const StepGeometry& step, Contacts& contacts) {
     reach_.resize(count);
     parallel_for(count, [&](std::size_t i) {
         reach_[i] =
-            step.displacement[i] + std::max(step.shift.part[i] + step.ranges.activation_margin, step.ranges.range);
+            step.displacement[i] + std::max(step.ranges.activation_margin, step.ranges.range);
     });
     grid_.fit(step.box, reach_from_centre(step.rods, *step.box.fixed_rods(), reach_));
     const std::size_t first = contacts.size();
@@ -68,22 +53,16 @@ void FixedRodSearch::look_at(std::uint32_t row, const StepGeometry& step, FoundC
         const NearestPoints nearest_after = nearest_points(after);
         const bool passed_through = dot(nearest.separation, nearest_after.separation) <= 0.0;
         const double gap_after = norm(nearest_after.separation) - after.radii;
-        const bool always = gap < step.ranges.range || passed_through;
-        const double margin = step.ranges.activation_margin;
-        if (!always && gap_after - step.shift.part[row] >= margin) continue;
-        const std::size_t known = found.contacts.size();
-        const double shift = append(copy, row, before, nearest, after, step, found.contacts);
-        if (!always && gap_after - shift >= margin) found.contacts.resize(known);
+        if (gap < step.ranges.range || passed_through || gap_after < step.ranges.activation_margin)
+            append(copy, row, before, nearest, after, step, found.contacts);
     }
 }
 
-/// Appends the contacts of a pair, with their shifted gaps. Returns the largest of their shifts.
-double FixedRodSearch::append(const FixedCopy& copy, std::uint32_t row, const PairGeometry& before,
-                              const NearestPoints& nearest, const PairGeometry& after, const StepGeometry& step,
-                              Contacts& contacts) const {
-    const std::size_t first = contacts.size();
-    append_points(copy, row, before, nearest, reach_[row], contacts);
-    return set_shifted_gaps(step.shift, after, first, contacts);
+/// Appends the contacts of a pair.
+void FixedRodSearch::append(const FixedCopy& copy, std::uint32_t row, const PairGeometry& before,
+                            const NearestPoints& nearest, const PairGeometry& after, const StepGeometry& step,
+                            Contacts& contacts) const {
+    append_moving_contacts(key_of(copy, row), {before, nearest, after, step.normals_after}, reach_[row], 3, contacts);
 }
 
 void FixedRodSearch::remember(const Contacts& contacts, std::size_t first) {
@@ -111,14 +90,12 @@ void FixedRodSearch::look_again_at(std::uint32_t row, double farthest, const Ste
     const Rods& rods = step.rods;
     for (const FixedCopy& copy : grid_.near(rods.centre[row])) {
         const PairGeometry after = grid_.pair(copy, rods, row, step.known.centre[row], step.known.axis[row]);
-        if (are_apart(after, step.shift.part[row] + farthest)) continue;
+        if (are_apart(after, farthest)) continue;
         if (std::binary_search(known_.begin(), known_.end(), Known{row, copy.number, copy.image})) continue;
         const PairGeometry at_end = grid_.pair(copy, rods, row, end.centre(row), end.axis(row));
-        const double gap = pair_gap(at_end);
-        if (gap >= step.shift.part[row]) continue;
+        if (!pair_overlaps(at_end)) continue;
         const PairGeometry before = grid_.pair(copy, rods, row, rods.centre[row], rods.axis[row]);
-        const std::size_t known = found.size();
-        if (gap >= append(copy, row, before, nearest_points(before), after, step, found)) found.resize(known);
+        append(copy, row, before, nearest_points(before), after, step, found);
     }
 }
 
@@ -134,7 +111,8 @@ double append_fixed_rod_contacts(const Rods& rods, const Box& box, std::span<con
             const NearestPoints nearest = nearest_points(pair);
             const double gap = norm(nearest.separation) - pair.radii;
             overlap = std::max(overlap, -gap);
-            if (gap < reach[row]) append_points(copy, row, pair, nearest, reach[row], contacts);
+            if (gap < reach[row])
+                append_contacts(key_of(copy, row), pair, nearest, norm(nearest.separation), reach[row], 3, contacts);
         }
     return overlap;
 }
@@ -161,12 +139,11 @@ Contacts relinearised_fixed_rod_contacts(const Contacts& contacts, const Box& bo
         const Contact& known = contacts.contact[l];
         if (!is_fixed_rod(known.i) || !looked_at.insert(pair_of(contacts, l)).second) continue;
         const FixedCopy copy = copy_of(known, contacts.image[l], box);
-        const PairGeometry pair =
-            pair_with(*box.fixed_rods(), copy, end.rods, known.j, end.centre(known.j), end.axis(known.j));
-        const PairGeometry before =
-            pair_with(*box.fixed_rods(), copy, end.rods, known.j, end.rods.centre[known.j], end.rods.axis[known.j]);
+        const Rods &fixed = *box.fixed_rods(), &rods = end.rods;
+        const PairGeometry pair = pair_with(fixed, copy, rods, known.j, end.centre(known.j), end.axis(known.j));
+        const PairGeometry before = pair_with(fixed, copy, rods, known.j, rods.centre[known.j], rods.axis[known.j]);
         const auto contact = relinearised_contact(known, before, pair);
-        if (contact && contact->shifted_gap < -max_overlap)
+        if (contact && contact->gap_after < -max_overlap)
             found.push_back(*contact, contacts.image[l], ContactFeature::relinearised);
     }
     return found;

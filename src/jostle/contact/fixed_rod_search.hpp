@@ -31,8 +31,8 @@ private:
     void look_at(std::uint32_t row, const StepGeometry& step, FoundContacts& found) const;
     void look_again_at(std::uint32_t row, double farthest, const StepGeometry& step, const EndConfiguration& end,
                        Contacts& found) const;
-    double append(const FixedCopy& copy, std::uint32_t row, const PairGeometry& before, const NearestPoints& nearest,
-                  const PairGeometry& after, const StepGeometry& step, Contacts& contacts) const;
+    void append(const FixedCopy& copy, std::uint32_t row, const PairGeometry& before, const NearestPoints& nearest,
+                const PairGeometry& after, const StepGeometry& step, Contacts& contacts) const;
     void remember(const Contacts& contacts, std::size_t first);
 
     FixedRodGrid grid_;

@@ -42,7 +42,7 @@ std::optional<Contact> contact_with_own_image(const PairKey& key, const PairGeom
     contact.arm_j = points.s_j;
     const double along = dot(contact.normal, touch->at_touching.axis_i);
     const double gradient = std::fabs(points.s_j - points.s_i) * std::sqrt(std::max(0.0, 1.0 - along * along));
-    contact.shifted_gap = gradient * touch->turn;
+    contact.gap_after = gradient * touch->turn;
     return contact;
 }
 

@@ -16,7 +16,7 @@ double inclination_between_images(double apart, double length, double diameter);
 ///      _____          Both stay parallel, so their gap depends on one angle alone, that by which the rod is inclined
 ///     /    /          from side by side; and it is of second order there. As a gap it would be no measure of how far
 ///    /    /           the rod may turn, and its gradient none of the force. So contacts have points and normal as at
-///   /    /            touching, and their shifted gap is the way that is left until then.
+///   /    /            touching, and their gap after the known motion is the way that is left until then.
 ///
 /// `at_touching`: the pair, turned in the plane of its axis and the image.
 struct OwnImageTouch {
@@ -28,7 +28,7 @@ struct OwnImageTouch {
 /// than D.
 std::optional<OwnImageTouch> touch_of_own_image(const PairGeometry& pair);
 
-/// The contact of rod `key.i` with its image when they lie as in `pair`, with the way left as its shifted gap; none
+/// The contact of rod `key.i` with its image when they lie as in `pair`, with the way left as its gap after the known motion; none
 /// where they cannot touch. The gap is left at 0.
 std::optional<Contact> contact_with_own_image(const PairKey& key, const PairGeometry& pair);
 

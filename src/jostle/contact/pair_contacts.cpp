@@ -50,7 +50,7 @@ Contact contact_across(const PairKey& key, const PairGeometry& pair, const Neare
     foot = std::clamp(foot + (end - arm) * cosine, -half_of_other, half_of_other);
     arm = end;
     contact.normal = of_j ? -outwards : outwards;
-    contact.gap = contact.shifted_gap = -pair.radii - (of_j ? beyond_j : beyond_i) * sine;
+    contact.gap = contact.gap_after = -pair.radii - (of_j ? beyond_j : beyond_i) * sine;
     return contact;
 }
 
@@ -85,6 +85,32 @@ EndPoints end_points(const PairGeometry& pair, const Point& nearest, double rang
             ends.offer({end, foot.s, distance, -foot.separation, ContactFeature::end_of_i}, nearest.s_i, spacing);
     }
     return ends;
+}
+
+/// Distance of the points of a contact, less (D_i + D_j)/2.
+double gap_of_points(const Contact& contact, const PairGeometry& pair) {
+    return norm(pair.between + contact.arm_j * pair.axis_j - contact.arm_i * pair.axis_i) - pair.radii;
+}
+
+/// The pair after a part of its way.
+PairGeometry on_the_way(const MovingPair& pair) {
+    const auto between = [part = pair.normals_after](const Vec3& a, const Vec3& b) { return a + part * (b - a); };
+    PairGeometry here = pair.before;
+    here.between = between(pair.before.between, pair.after.between);
+    here.axis_i = normalised(between(pair.before.axis_i, pair.after.axis_i));
+    here.axis_j = normalised(between(pair.before.axis_j, pair.after.axis_j));
+    return here;
+}
+
+/// Appends the contacts of a pair as it lies on its way. Returns whether there are any: not if the rods have passed
+/// through each other by then.
+bool append_on_the_way(const PairKey& key, const MovingPair& pair, double range, int dimensions, Contacts& contacts) {
+    if (pair.normals_after == 0.0) return false;
+    const PairGeometry here = on_the_way(pair);
+    const NearestPoints nearest = nearest_points(here);
+    if (dot(nearest.separation, pair.nearest.separation) <= 0.0) return false;
+    append_contacts(key, here, nearest, norm(nearest.separation), range, dimensions, contacts);
+    return true;
 }
 
 }  // namespace
@@ -136,15 +162,17 @@ double gap_of_contact(const Contact& contact, ContactFeature feature, const Pair
     return distance - pair.radii;
 }
 
-double set_shifted_gaps(const GapShift& shift, const PairGeometry& after, std::size_t first, Contacts& contacts) {
-    double largest = 0.0;
+void append_moving_contacts(const PairKey& key, const MovingPair& pair, double range, int dimensions,
+                            Contacts& contacts) {
+    const std::size_t first = contacts.size();
+    const bool moved = append_on_the_way(key, pair, range, dimensions, contacts);
+    if (!moved)
+        append_contacts(key, pair.before, pair.nearest, norm(pair.nearest.separation), range, dimensions, contacts);
     for (std::size_t l = first; l < contacts.size(); ++l) {
         Contact& contact = contacts.contact[l];
-        const double own = shift.exact(contact);
-        contact.shifted_gap = gap_of_contact(contact, contacts.feature[l], after) - own;
-        largest = std::max(largest, own);
+        if (moved) contact.gap = gap_of_points(contact, pair.before);
+        contact.gap_after = gap_of_contact(contact, contacts.feature[l], pair.after);
     }
-    return largest;
 }
 
 std::optional<Contact> relinearised_contact(const Contact& known, const PairGeometry& before,
@@ -161,7 +189,7 @@ std::optional<Contact> relinearised_contact(const Contact& known, const PairGeom
     contact.arm_j = nearest.s_j;
     const Vec3 points = before.between + contact.arm_j * before.axis_j - contact.arm_i * before.axis_i;
     contact.gap = dot(points, contact.normal) - at_end.radii;
-    contact.shifted_gap = side * distance - at_end.radii;
+    contact.gap_after = side * distance - at_end.radii;
     return contact;
 }
 

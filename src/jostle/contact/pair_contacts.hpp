@@ -4,7 +4,6 @@
 #include <span>
 
 #include "jostle/contact/contacts.hpp"
-#include "jostle/contact/gap_shift.hpp"
 #include "jostle/contact/segment_distance.hpp"
 #include "jostle/rods/box.hpp"
 
@@ -72,9 +71,18 @@ void append_contacts(const PairKey& key, const PairGeometry& pair, const Nearest
 /// through each other count as overlapping.
 double gap_of_contact(const Contact& contact, ContactFeature feature, const PairGeometry& pair);
 
-/// Sets the shifted gaps of the contacts from `first` on, all of one pair, which lies as in `after` after the known
-/// motion. Returns the largest of their shifts, at least 0.
-double set_shifted_gaps(const GapShift& shift, const PairGeometry& after, std::size_t first, Contacts& contacts);
+/// A pair before and after the known motion of a step.
+struct MovingPair {
+    const PairGeometry& before;
+    const NearestPoints& nearest;  ///< of `before`
+    const PairGeometry& after;
+    double normals_after;  ///< contacts have the normals and arms of the pair after this part of its way, 0 to 1
+};
+
+/// Appends the contacts of a pair that moves, with their gaps before and after the motion. If the rods have passed
+/// through each other on the way, normals and arms are those before. `range`, `dimensions`: as above.
+void append_moving_contacts(const PairKey& key, const MovingPair& pair, double range, int dimensions,
+                            Contacts& contacts);
 
 /// The contact of a pair that is in contact already, at the points that are nearest at the end of the step
 /// (relinearised_contacts.hpp). None if the axes cross there, where no normal can be told. `before`, `at_end`: the pair

@@ -13,7 +13,7 @@ Contact contact_with_wall(const Wall& wall, const Rods& rods, std::uint32_t row,
     contact.j = row;
     contact.normal = wall.inwards(end);
     contact.arm_j = arm;
-    contact.gap = contact.shifted_gap = wall.distance(end) - 0.5 * rods.diameter[row];
+    contact.gap = contact.gap_after = wall.distance(end) - 0.5 * rods.diameter[row];
     return contact;
 }
 
@@ -42,8 +42,8 @@ Contacts relinearised_wall_contacts(const Contacts& contacts, const Box& box, co
         const Wall& wall =
             *std::find_if(walls.begin(), walls.end(), [&](const Wall& other) { return other.body() == contact.i; });
         const Vec3 point = end.centre(contact.j) + contact.arm_j * end.axis(contact.j);
-        contact.shifted_gap = wall.distance(point) - 0.5 * end.rods.diameter[contact.j];
-        if (!(contact.shifted_gap < -max_overlap)) continue;
+        contact.gap_after = wall.distance(point) - 0.5 * end.rods.diameter[contact.j];
+        if (!(contact.gap_after < -max_overlap)) continue;
         contact.normal = wall.inwards(point);
         found.push_back(contact, {0, 0, 0}, ContactFeature::relinearised);
     }

@@ -23,6 +23,16 @@ bool is_far(const Wall& wall, std::uint32_t row, double range, const StepGeometr
     return wall.distance(step.known.centre[row]) - half * inclined - radius - rounding > range;
 }
 
+/// The contact of the point at `arm` of a rod with a wall in a step.
+Contact contact_of_step(const Wall& wall, std::uint32_t row, double arm, const StepGeometry& step) {
+    Contact contact = contact_with_wall(wall, step.rods, row, arm);
+    const Vec3 before = step.rods.centre[row] + arm * step.rods.axis[row];
+    const Vec3 after = step.known.centre[row] + arm * step.known.axis[row];
+    contact.normal = wall.inwards(before + step.normals_after * (after - before));
+    contact.gap_after = wall.distance(after) - 0.5 * step.rods.diameter[row];
+    return contact;
+}
+
 double gap_after_known_motion(const Wall& wall, std::uint32_t row, double arm, const StepGeometry& step) {
     return wall.distance(step.known.centre[row] + arm * step.known.axis[row]) - 0.5 * step.rods.diameter[row];
 }
@@ -41,16 +51,15 @@ double WallSearch::find(const StepGeometry& step, Contacts& contacts) {
 
 void WallSearch::look_at(std::uint32_t row, const StepGeometry& step, FoundContacts& found) {
     const Rods& rods = step.rods;
-    const double range = std::max(step.shift.part[row] + step.ranges.activation_margin, step.ranges.range);
+    const double range = std::max(step.ranges.activation_margin, step.ranges.range);
     for (const Wall& wall : walls_) {
         if (is_far(wall, row, range + step.displacement[row], step)) continue;
         for (const double arm : wall_arms(step.box.walls(), rods.length[row])) {
             const double after = gap_after_known_motion(wall, row, arm, step);
             if (after - step.displacement[row] > range) continue;
-            Contact contact = contact_with_wall(wall, rods, row, arm);
+            const Contact contact = contact_of_step(wall, row, arm, step);
             found.overlap = std::max(found.overlap, -contact.gap);
-            contact.shifted_gap = after - step.shift.exact(contact);
-            if (contact.gap >= step.ranges.range && contact.shifted_gap >= step.ranges.activation_margin) continue;
+            if (contact.gap >= step.ranges.range && contact.gap_after >= step.ranges.activation_margin) continue;
             known_[row] = static_cast<std::uint16_t>(known_[row] | 1U << bit_of(wall, arm));
             add(contact, found.contacts);
         }
@@ -70,17 +79,14 @@ void WallSearch::look_again_at(std::uint32_t row, double farthest, const StepGeo
                                const EndConfiguration& end, Contacts& found) {
     const Rods& rods = step.rods;
     for (const Wall& wall : walls_) {
-        if (is_far(wall, row, step.shift.part[row] + farthest, step)) continue;
+        if (is_far(wall, row, farthest, step)) continue;
         for (const double arm : wall_arms(step.box.walls(), rods.length[row])) {
             const double after = gap_after_known_motion(wall, row, arm, step);
-            if (after - farthest > step.shift.part[row] || is_contact(row, wall, arm)) continue;
-            Contact contact = contact_with_wall(wall, rods, row, arm);
-            const double shift = step.shift.exact(contact);
+            if (after > farthest || is_contact(row, wall, arm)) continue;
             const double at_end = wall.distance(end.centre(row) + arm * end.axis(row)) - 0.5 * rods.diameter[row];
-            if (at_end >= shift) continue;
-            contact.shifted_gap = after - shift;
+            if (at_end >= 0.0) continue;
             known_[row] = static_cast<std::uint16_t>(known_[row] | 1U << bit_of(wall, arm));
-            add(contact, found);
+            add(contact_of_step(wall, row, arm, step), found);
         }
     }
 }

@@ -56,6 +56,35 @@ void BlockGaussSeidel<Real>::extend() {
 }
 
 template <class Real>
+void BlockGaussSeidel<Real>::begin_again() {
+    parallel_for(velocities_.size(), [&](std::size_t local) { velocities_[local] = {}; });
+    former_velocities_.clear();
+    const auto begin = [this](auto& group) {
+        parallel_for(group.items.size(), [&](std::size_t k) { this->begin_again(group.items[k]); });
+        group.last.clear();
+        group.sort_out(0, [](const auto& item) { return active_at_first(item); });
+    };
+    for (Colour& colour : colours_) {
+        for_groups(colour.here, begin);
+        for_groups(colour.elsewhere, begin);
+    }
+}
+
+template <class Real>
+void BlockGaussSeidel<Real>::begin_again(ScalarBlock<Real>& contact) const {
+    contact.b = static_cast<Real>(b_[contact.number]);
+    contact.gamma = 0;
+}
+
+template <class Real>
+void BlockGaussSeidel<Real>::begin_again(CoupledBlock& pair) const {
+    for (std::uint32_t a = 0; a < pair.count; ++a) {
+        pair.points[a].b = b_[pair.first + a];
+        pair.points[a].gamma = 0.0;
+    }
+}
+
+template <class Real>
 void BlockGaussSeidel<Real>::append(Kinds& contacts, std::span<const ContactPair> new_pairs) {
     std::vector<ContactPair> singles, others;
     for (const ContactPair& pair : new_pairs) (pair.count == 1 ? singles : others).push_back(pair);

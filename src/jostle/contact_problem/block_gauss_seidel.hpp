@@ -34,6 +34,9 @@ public:
     /// Takes in the contacts that the problem has grown by; active are those whose gap closes without forces.
     void extend();
 
+    /// Begins again with the constants that the problem has now, and no forces.
+    void begin_again();
+
     /// One pass; returns the largest change of a gap velocity by a contact's own force.
     double sweep(double omega, SweepOver over);
 
@@ -80,6 +83,8 @@ private:
 
     ScalarBlock<Real> contact_of(const ContactPair& pair) const;
     CoupledBlock pair_of(const ContactPair& pair) const;
+    void begin_again(ScalarBlock<Real>& contact) const;
+    void begin_again(CoupledBlock& pair) const;
     template <class Item, class MakeItem>
     static void append(Group<Item>& group, std::span<const ContactPair> pairs, MakeItem&& item_of);
     void append(Kinds& contacts, std::span<const ContactPair> new_pairs);

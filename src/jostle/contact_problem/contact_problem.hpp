@@ -43,6 +43,9 @@ public:
         note_elsewhere();
     }
 
+    /// Other constants b for the contacts that there are.
+    void pose_again(std::vector<double> b) { b_ = std::move(b); }
+
     std::size_t size() const { return contacts_.size(); }
     const Contacts& contacts() const { return contacts_; }
     const ContactMatrix& contact_matrix() const { return contact_matrix_; }
@@ -68,6 +71,7 @@ public:
     void complete(ContactSolution& solution) const {
         solution.resize(contact_matrix_);
         matrix_.velocities(solution.gamma, solution.forces, solution.velocities);
+        if (domain_.is_shared()) fetch_velocities(solution.velocities);  // the forces on ghosts are not all known here
         solution.box_rate = matrix_.box_rate(solution.gamma);
     }
 

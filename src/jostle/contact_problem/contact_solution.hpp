@@ -5,6 +5,7 @@
 
 #include "jostle/contact/contact_matrix.hpp"
 #include "jostle/lcp/lcp_problem.hpp"
+#include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
 
@@ -22,6 +23,18 @@ struct ContactSolution {
         rods.assign(contact_matrix.rods().begin(), contact_matrix.rods().end());
         forces.resize(rods.size());
         velocities.resize(rods.size());
+    }
+
+    /// Forces that act beside these, on the same rods and contacts, of which the other may know less.
+    void add(const ContactSolution& other) {
+        parallel_for(other.gamma.size(), [&](std::size_t l) { gamma[l] += other.gamma[l]; });
+        parallel_for(other.forces.size(), [&](std::size_t local) {
+            forces[local].force += other.forces[local].force;
+            forces[local].moment += other.forces[local].moment;
+            velocities[local].centre += other.velocities[local].centre;
+            velocities[local].axis_rate += other.velocities[local].axis_rate;
+        });
+        box_rate += other.box_rate;
     }
 };
 

@@ -1,5 +1,7 @@
 #include "jostle/contact_problem/contact_solver.hpp"
 
+#include <utility>
+
 #include "jostle/contact_problem/near_first.hpp"
 #include "jostle/contact_problem/projected_sor.hpp"
 #include "jostle/error/input_error.hpp"
@@ -19,15 +21,20 @@ public:
         : ContactSolver(problem, settings), method_(method) {}
 
     bool run_to_next_stop() override {
-        const bool first = outcome_.solves == 0;
-        if (!problem_has_grown() && !first) return false;
-        const bool from_zero = first && problem_.start().empty();
+        const bool begins = std::exchange(begins_, false);
+        if (!problem_has_grown() && !begins) return false;
+        const bool from_zero = begins && (problem_.start().empty() || outcome_.solves > 0);
         LcpResult result = solve(from_zero ? std::span<const double>{} : solution_.gamma);
         solution_.gamma = std::move(result.solution);
         problem_.complete(solution_);
         outcome_ = {result.status, result.residual, outcome_.iterations + result.iterations, outcome_.solves + 1};
         at_solution_ = outcome_.status == LcpStatus::converged;
         return at_solution_;
+    }
+
+    void begin_again() override {
+        ContactSolver::begin_again();
+        begins_ = true;
     }
 
 private:
@@ -45,6 +52,7 @@ private:
     }
 
     SolverMethod method_;
+    bool begins_ = true;
 };
 
 }  // namespace

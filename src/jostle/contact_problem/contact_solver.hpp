@@ -24,6 +24,13 @@ public:
     /// `at_solution`, only if the problem has grown.
     virtual bool run_to_next_stop() = 0;
 
+    /// To be told where the problem has been posed again, with other constants: the next run begins from no forces.
+    virtual void begin_again() {
+        solution_.gamma.assign(problem_.size(), 0.0);
+        solution_.resize(problem_.contact_matrix());
+        at_solution_ = at_near_candidate_ = false;
+    }
+
     /// Whether this stop is at a solution, which stands unless the problem grows. If not, only the velocities of the
     /// candidate are up to date.
     bool at_solution() const { return at_solution_; }

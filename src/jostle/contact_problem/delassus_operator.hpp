@@ -9,7 +9,7 @@ namespace jostle {
 
 /// A = D^T M D (theory, eq. 2.4): gap velocities caused by contact forces. The place where contact and mobility meet.
 ///
-/// With a compliance kappa it is D^T M D + kappa diag(D^T M D) (theory, eq. 3.5): positive definite. Never formed: one
+/// With a compliance kappa it is D^T M D + kappa diag(D^T M D) (theory, eq. 3.9): positive definite. Never formed: one
 /// application is a gather over the rods that have contacts, the mobility, and a pass over contacts. A box that opens
 /// adds the square of its column. Holds references.
 class DelassusOperator final : public LinearOperator {

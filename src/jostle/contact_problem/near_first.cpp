@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "jostle/lcp/adaptive_bb.hpp"
 #include "jostle/parallel/parallel_for.hpp"
@@ -25,11 +26,11 @@ NearFirst::NearFirst(const ContactProblem& problem, const LcpSettings& settings)
 }
 
 bool NearFirst::run_to_next_stop() {
-    const bool first = !among_;
-    const bool grown = problem_has_grown();
+    const bool begins = std::exchange(begins_, false), grown = problem_has_grown();
     if (at_solution_ && !grown) return false;
-    if (first || grown) take_in_contacts();
-    if (at_solution_ || first) ++outcome_.solves;
+    if (begins || grown) take_in_contacts();
+    if (!among_ || grown) among_.emplace(problem_.matrix());
+    if (at_solution_ || begins) ++outcome_.solves;
     at_solution_ = false;
     for (;;) {
         const double now = residual();
@@ -44,12 +45,18 @@ bool NearFirst::run_to_next_stop() {
     }
 }
 
+void NearFirst::begin_again() {
+    ContactSolver::begin_again();
+    std::fill(solution_.velocities.begin(), solution_.velocities.end(), ContactVelocity{});
+    begins_ = true;
+    searched_early_ = false;
+}
+
 /// A gamma + b of all contacts, from the velocities of all rods, which are up to date.
 void NearFirst::take_in_contacts() {
     velocity_.resize(problem_.size());
     problem_.matrix().rates(solution_.velocities, solution_.gamma, velocity_);
     parallel_for(velocity_.size(), [&](std::size_t l) { velocity_[l] += problem_.constant()[l]; });
-    among_.emplace(problem_.matrix());
 }
 
 double NearFirst::residual() const {

@@ -24,6 +24,7 @@ class NearFirst final : public ContactSolver {
 public:
     NearFirst(const ContactProblem& problem, const LcpSettings& settings);
     bool run_to_next_stop() override;
+    void begin_again() override;
 
 private:
     void take_in_contacts();
@@ -35,7 +36,7 @@ private:
 
     std::optional<ContactsAmong> among_;
     std::vector<double> velocity_;  ///< (contacts) A gamma + b
-    bool searched_early_ = false;
+    bool begins_ = true, searched_early_ = false;
 };
 
 }  // namespace jostle

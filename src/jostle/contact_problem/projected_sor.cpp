@@ -13,11 +13,10 @@ namespace jostle {
 
 namespace {
 
-/// Over-relaxation: measured best between 1.3 and 1.4 for hard contacts of dilute and isotropic rods, between 1.0
-/// and 1.1 for compliant ones, whose matrix is better conditioned; harder problems want more, and so do those that
-/// begin warm, with what is left to the slowest modes of a crowd, where momentum has failed.
-double relaxation(std::uint64_t sweep, bool compliant, bool warm) {
-    return sweep >= 60 || warm ? 1.6 : compliant ? 1.1 : 1.35;
+/// Over-relaxation: measured best between 1.1 and 1.4 for dilute and isotropic rods; harder problems want more, and so
+/// do those that begin warm, with what is left to the slowest modes of a crowd, where momentum has failed.
+double relaxation(std::uint64_t sweep, bool warm) {
+    return sweep >= 60 || warm ? 1.6 : 1.2;
 }
 
 /// Every so many sweeps, and after a verification, one passes over all contacts.
@@ -68,6 +67,19 @@ public:
           may_have_momentum_(may_have_momentum),
           sweeper_(problem, settings.tolerance, solution.gamma) {
         sweeper_.refresh(solution_);
+    }
+
+    /// With the constants that the problem has now, from no forces. `verify_first`: before any sweep.
+    void begin_again(bool verify_first) {
+        sweeper_.begin_again();
+        momentum_.restart();
+        warm_ = may_have_momentum_ = at_candidate_ = look_at_all_ = false;
+        verify_first_ = verify_first;
+        begun_ = outcome_.iterations;
+        next_search_ = begun_ + early_search;
+        next_verification_ = 0;
+        failures_ = 0;
+        change_ = 0.0;
     }
 
     /// Goes on after the last end; `grown`: the problem has more contacts since.
@@ -129,9 +141,9 @@ private:
     }
 
     double sweep_over_relaxed() {
-        const bool all =
-            std::exchange(look_at_all_, false) || outcome_.iterations % full_sweep_every == full_sweep_every - 1;
-        const double omega = relaxation(outcome_.iterations, problem_.matrix().compliant(), warm_);
+        const std::uint64_t sweeps = outcome_.iterations - begun_;
+        const bool all = std::exchange(look_at_all_, false) || sweeps % full_sweep_every == full_sweep_every - 1;
+        const double omega = relaxation(sweeps, warm_);
         return sweeper_.sweep(omega, all ? SweepOver::all : SweepOver::active);
     }
 
@@ -144,7 +156,7 @@ private:
 
     bool is_time_to_search() {
         if (!(has_momentum() ? has_fallen_to_next_search() : outcome_.iterations >= next_search_)) return false;
-        next_search_ = 3 * outcome_.iterations;
+        next_search_ = begun_ + 3 * (outcome_.iterations - begun_);
         next_search_change_ = next_search_part * change_;
         sweeper_.read_velocities(solution_.velocities);
         at_candidate_ = true;
@@ -182,6 +194,7 @@ private:
     bool verify_first_, warm_, may_have_momentum_;
     BlockGaussSeidel<Real> sweeper_;
     SweepMomentum momentum_;
+    std::uint64_t begun_ = 0;  ///< sweeps before it began again
     std::uint64_t next_search_ = early_search, next_verification_ = 0;
     double next_search_change_ = 0.0;  ///< the same by the largest change
     bool at_candidate_ = false, look_at_all_ = false;
@@ -190,18 +203,29 @@ private:
 
 ProjectedSor::ProjectedSor(const ContactProblem& problem, const LcpSettings& settings)
     : ContactSolver(problem, settings) {
-    const auto& b = problem.constant();
-    const double deepest =
-        problem.domain().ranks().largest(parallel_max(b.size(), 0.0, [&](std::size_t l) { return -b[l]; }));
-    const double overlap = problem.time_step() * deepest;
+    const double overlap = deepest_overlap();
     may_have_momentum_ = settings.tolerance > finest_with_momentum * overlap && is_crowd(problem.start());
-    if (settings.residual == LcpResidual::length && std::isfinite(deepest) &&
+    if (settings.residual == LcpResidual::length && std::isfinite(overlap) &&
         settings.tolerance > finest_in_float * overlap)
         in_float_ = std::make_unique<Sweeps<float>>(problem, settings, solution_, outcome_, patience_with_float,
-                                                    deepest == 0.0, may_have_momentum_);
+                                                    overlap == 0.0, may_have_momentum_);
 }
 
 ProjectedSor::~ProjectedSor() = default;
+
+/// By how much the deepest of the gaps would be below 0 without forces, on all ranks.
+double ProjectedSor::deepest_overlap() const {
+    const std::vector<double>& b = problem_.constant();
+    const double deepest = parallel_max(b.size(), 0.0, [&](std::size_t l) { return -b[l]; });
+    return problem_.time_step() * problem_.domain().ranks().largest(deepest);
+}
+
+void ProjectedSor::begin_again() {
+    ContactSolver::begin_again();
+    const bool solved = deepest_overlap() == 0.0;
+    if (in_float_) in_float_->begin_again(solved);
+    if (in_double_) in_double_->begin_again(solved);
+}
 
 bool ProjectedSor::run_to_next_stop() {
     const bool grown = problem_has_grown();

@@ -32,10 +32,13 @@ public:
     ProjectedSor(const ContactProblem& problem, const LcpSettings& settings);
     ~ProjectedSor() override;
     bool run_to_next_stop() override;
+    void begin_again() override;
 
 private:
     template <class Real>
     class Sweeps;
+
+    double deepest_overlap() const;
 
     std::unique_ptr<Sweeps<float>> in_float_;
     std::unique_ptr<Sweeps<double>> in_double_;

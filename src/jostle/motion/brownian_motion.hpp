@@ -18,6 +18,7 @@ public:
     /// kT div M is the flow of thermal stresslets.
     AxialStresslets stresslets(const Rods& rods, const StepContext& context) const override;
 
+    bool is_noise() const override { return true; }
     bool keeps_equilibrium() const override { return true; }
 
     /// The root-mean-square step of the fastest rod along an axis, over the diameter of the thinnest.

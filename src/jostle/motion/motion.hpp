@@ -45,6 +45,10 @@ public:
         return {};
     }
 
+    /// Whether its velocities are noise, without memory from step to step. What others give is a drift, which a step
+    /// that is reflected has to know apart.
+    virtual bool is_noise() const { return false; }
+
     /// Whether rods in equilibrium stay in it: else what equilibrium demands of the stress is not checked.
     virtual bool keeps_equilibrium() const { return false; }
 

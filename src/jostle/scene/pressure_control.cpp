@@ -21,7 +21,7 @@ namespace {
 
 /// In D, by which rods that touch are brought nearer; of noise, root mean square.
 constexpr double automatic_strain = 0.01, advised_strain = 0.03, largest_strain = 0.1;
-/// Of a rod's mobility: noise of a plane is common to all that touch it, and the shifts of gaps know nothing of it.
+/// Of a rod's mobility: noise of a plane is common to all that touch it, and reflected steps know nothing of it.
 constexpr double mobility_of_piston = 0.1;
 /// Viscosities over the pressure: rods in suspension resist as 100 viscosities at a volume fraction of some 0.6.
 constexpr double viscosities = 100.0;

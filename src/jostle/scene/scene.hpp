@@ -136,7 +136,7 @@ struct Scene {
     struct ContactTable {
         ContactModel model = ContactModel::hard;  // "hard": the contact problem; "wca": a soft potential
         std::optional<double> energy;             // of the potential; "auto" (empty): kT
-        bool brownian_correction = true;          // shift, compliance, true gap after the known motion (theory, 3)
+        bool brownian_correction = true;          // reflected steps, true gap after the known motion (theory, 3)
         std::optional<double> range;  // "auto" (empty): from the step; a length: at least all pairs with a smaller gap
         double overlap_limit = 0.2;   // in D; a larger overlap at the beginning of a step ends the run (exit 3)
         bool operator==(const ContactTable&) const = default;

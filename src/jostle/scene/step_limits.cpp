@@ -218,7 +218,7 @@ Box narrowest(const Scene& scene, const Box& box, const Rods& rods) {
 }
 
 /// Where noise moves the end of a rod along a wall farther in a step than a third of the room between opposite walls,
-/// the shifts of both find no room (theory, section 6).
+/// paths meet both in one step, and are mirrored at one (theory, section 6).
 std::vector<StepLimit> wall_limits(const Scene& scene, const Box& box, const Rods& rods,
                                    const MobilityOperator& mobility) {
     const double kT = thermal_energy(scene);

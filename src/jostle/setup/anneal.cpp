@@ -29,8 +29,8 @@ constexpr double rise_as_all_are_placed = 0.5, least_rise = 0.02;
 /// It is over earlier, too, once fewer rods than this overlap.
 constexpr double few_overlaps = 0.01;
 
-// Brownian steps, in diameters of the thinnest rod. The first are uncorrected: the shift of the correction asks for
-// gaps that rods just pushed apart do not have.
+// Brownian steps, in diameters of the thinnest rod. The first are uncorrected: rods
+// just pushed apart have nowhere to be thrown to.
 
 struct Stretch {
     int steps;

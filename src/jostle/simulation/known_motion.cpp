@@ -1,5 +1,6 @@
 #include "jostle/simulation/known_motion.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "jostle/math/rotation.hpp"
@@ -49,6 +50,12 @@ void add_velocities_of_forces(const State& state, std::span<const std::unique_pt
     add(known.by_forces, known.velocity);
 }
 
+/// Whether anything but noise moves rods.
+bool any_drift(const State& state, std::span<const std::unique_ptr<Motion>> motions, const MobilityOperator& mobility) {
+    return mobility.couples_rods() || !state.springs.empty() ||
+           std::ranges::any_of(motions, [](const auto& motion) { return !motion->is_noise(); });
+}
+
 }  // namespace
 
 void find_known_motion(const State& state, std::span<const std::unique_ptr<Motion>> motions,
@@ -57,10 +64,17 @@ void find_known_motion(const State& state, std::span<const std::unique_ptr<Motio
     known.velocity.resize(rods.size());
     std::vector<Vec3>&linear = known.velocity.linear, &angular = known.velocity.angular;
     parallel_for(rods.size(), [&](std::size_t i) { linear[i] = angular[i] = Vec3{}; });
-    for (const auto& motion : motions) motion->add_velocities(known.velocity, rods, mobility, context);
+    const auto add_velocities_of = [&](bool noise) {
+        for (const auto& motion : motions)
+            if (motion->is_noise() == noise) motion->add_velocities(known.velocity, rods, mobility, context);
+    };
+    add_velocities_of(false);
     if (const AxialStresslets stresslets = sum_of_stresslets(motions, rods, context); stresslets.any())
         mobility.add_axial_flow(stresslets, known.velocity);
     add_velocities_of_forces(state, motions, mobility, context, known);
+    keep_in_plane(state.box, linear, angular);
+    known.drift = any_drift(state, motions, mobility) ? known.velocity : Velocities{0};
+    add_velocities_of(true);
     keep_in_plane(state.box, linear, angular);
 
     known.end.resize(rods.size());

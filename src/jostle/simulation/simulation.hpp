@@ -95,10 +95,16 @@ private:
     void rows_change();
     ContactProblem posed_problem(const MobilityOperator& mobility, Contacts found, const BoxColumn& opening) const;
     std::vector<double> gap_velocities(const Contacts& contacts) const;
+    std::vector<double> gap_velocities_beside(const ContactSolution& acting, const Contacts& contacts,
+                                              const ContactMatrix& contact_matrix);
     std::optional<ContactSolution> resolved(ContactProblem& problem, const StepGeometry& geometry, StepReport& report);
+    bool run_to_solution(ContactSolver& solver, ContactProblem& problem, const StepGeometry& geometry,
+                         const ContactSolution* acting);
     ContactSolution repelled(const ContactProblem& problem) const;
-    EndConfiguration end_configuration(const ContactMatrix& contact_matrix, const ContactSolution& solution);
-    Contacts relinearised(const ContactProblem& problem, const EndConfiguration& end) const;
+    EndConfiguration end_configuration(const ContactMatrix& contact_matrix, const ContactSolution* acting,
+                                       const ContactSolution* solution);
+    Contacts relinearised(const ContactProblem& problem, const EndConfiguration& end,
+                          const ContactSolution& solution, double max_overlap_per_diameter) const;
     void advance(StepReport& report);
     void open_box(StepReport& report);
     /// Whether contact forces do, in the step in which they act.
@@ -133,7 +139,8 @@ private:
     bool sizes_changed_ = true;  ///< since `sizes_` were found
     SizeBounds sizes_;
     KnownMotion known_;
-    std::vector<Displacement> displacement_;  ///< (n) of the rods with contacts, by their forces
+    std::vector<ContactVelocity> by_forces_;  ///< (n) of the rods with contacts, by the forces on them
+    std::vector<Displacement> displacement_;  ///< (n) by these
     std::vector<Vec3> half_way_axis_;         ///< (N)
 };
 

@@ -17,7 +17,7 @@ struct SimulationSettings {
     std::uint64_t seed = 1;
     double time_step = 0.0;
     double kT = 0.0;                  ///< of the Brownian motion in the last step; 0 where there is none
-    bool brownian_correction = true;  ///< shift, compliance, true gap, moments of the stress (theory, section 3)
+    bool brownian_correction = true;  ///< reflected steps, true gaps, moments of the stress (theory, section 3)
     double wca_energy = 0.0;          ///< of the potential that rods repel each other by; 0: they are hard
     double range = 0.0;               ///< contacts with a smaller gap are always taken; 0, or soft: as the step demands
     SolverMethod method = SolverMethod::automatic;
@@ -32,7 +32,7 @@ struct SimulationSettings {
     std::optional<PressureControl> pressure;  ///< without it the box stays, but for a schedule
 
     bool rods_are_soft() const { return wca_energy > 0.0; }
-    /// Contacts are compliant, and gaps shifted.
+    /// Steps are reflected where rods meet.
     bool corrects_brownian_motion() const { return brownian_correction && kT > 0.0; }
 };
 

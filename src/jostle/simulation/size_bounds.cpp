@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jostle/contact/reflection.hpp"
 #include "jostle/contact/wca_forces.hpp"
 #include "jostle/contact_problem/previous_forces.hpp"
 #include "jostle/parallel/sum_over_ranks.hpp"
@@ -43,18 +44,10 @@ void find_size_bounds(const Rods& rods, const Domain& domain, const MobilityOper
     sizes.mean_diameter = mean_of(rods.diameter, domain, sizes.rods);
     sizes.mean_length = mean_of(rods.length, domain, sizes.rods);
     sizes.max_diameter = ranks.largest(parallel_max(rods.size(), 0.0, [&](std::size_t i) { return rods.diameter[i]; }));
-    sizes.shift_part.assign(rods.size(), 0.0);
     sizes.own_mobility.clear();
     if (!settings.corrects_brownian_motion()) return;
     sizes.own_mobility.resize(rods.size());
-    // M is positive: two coupled points are at most twice as mobile as by their rods' own blocks.
-    const double at_most = mobility.couples_rods() ? 2.0 : 1.0;
-    parallel_for(rods.size(), [&](std::size_t i) {
-        const RodMobility rod = sizes.own_mobility[i] = mobility.of_rod(i);
-        const double half = 0.5 * rods.length[i];
-        const double largest = std::max(rod.parallel, rod.perpendicular) + half * half * rod.rotational;
-        sizes.shift_part[i] = brownian_shift(settings.kT, settings.time_step, at_most * largest);
-    });
+    parallel_for(rods.size(), [&](std::size_t i) { sizes.own_mobility[i] = mobility.of_rod(i); });
 }
 
 SearchRanges search_ranges(const State& state, const KnownMotion& known, const SizeBounds& sizes,
@@ -83,18 +76,13 @@ SearchRanges search_ranges(const State& state, const KnownMotion& known, const S
 }
 
 StepGeometry step_geometry(const State& state, const KnownMotion& known, const SizeBounds& sizes,
-                           const SimulationSettings& settings, const MobilityOperator& mobility, const Domain& domain) {
-    GapShift shift = {sizes.shift_part, state.rods.axis, sizes.own_mobility, settings.kT, settings.time_step, {}};
-    if (mobility.couples_rods() && settings.corrects_brownian_motion())
-        shift.coupled = [&](const Contact& contact) {
-            return mobility.relative_mobility(points_of(contact, state.rods));
-        };
+                           const SimulationSettings& settings, const Domain& domain) {
     return {state.rods,
             state.box,
             known.end,
             known.displacement,
-            shift,
             search_ranges(state, known, sizes, settings, domain),
+            settings.corrects_brownian_motion() ? normals_half_way : 0.0,
             settings.rods_are_soft()};
 }
 

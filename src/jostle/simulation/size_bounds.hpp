@@ -14,8 +14,7 @@ namespace jostle {
 struct SizeBounds {
     std::size_t rods = 0;  ///< of all ranks
     double mean_diameter = 0.0, mean_length = 0.0, max_diameter = 0.0;
-    std::vector<RodMobility> own_mobility;  ///< (N); (0) without the time-step correction
-    std::vector<double> shift_part;         ///< (N) each rod's part in the bound of a gap's shift (GapShift)
+    std::vector<RodMobility> own_mobility;  ///< (N); (0) where steps are not reflected
 };
 
 /// `mobility`: of these rods, of which the domain's own ones count.
@@ -28,6 +27,6 @@ SearchRanges search_ranges(const State& state, const KnownMotion& known, const S
 
 /// The step as the search for contacts sees it. Holds references.
 StepGeometry step_geometry(const State& state, const KnownMotion& known, const SizeBounds& sizes,
-                           const SimulationSettings& settings, const MobilityOperator& mobility, const Domain& domain);
+                           const SimulationSettings& settings, const Domain& domain);
 
 }  // namespace jostle

@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "jostle/contact/gaps_at.hpp"
+#include "jostle/contact/reflection.hpp"
 #include "jostle/contact/relinearised_contacts.hpp"
 #include "jostle/contact/wall_contacts.hpp"
 #include "jostle/contact/wca_forces.hpp"
@@ -14,6 +16,7 @@
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/simulation/forces_at_touching.hpp"
 #include "jostle/simulation/provisional_change.hpp"
+#include "jostle/simulation/reflected_forces.hpp"
 #include "jostle/simulation/shearing.hpp"
 #include "jostle/simulation/simulation.hpp"
 #include "jostle/simulation/step_stress.hpp"
@@ -38,10 +41,13 @@ private:
     Clock::time_point last_;
 };
 
-/// Pairs in contact may overlap by as much, in D, where contact forces turn them far in one step.
-constexpr double max_overlap_of_turning = 0.01;
-/// So often, and no more, is the problem of one step linearised about its solution.
-constexpr int max_relinearisations = 5;
+/// How the problem of one step is linearised about its solution: pairs in contact that would overlap by more there (in
+/// D) are taken in as they lie there; so often, and no more.
+struct Relinearisation {
+    double max_overlap;
+    int max_times;
+};
+constexpr Relinearisation where_forces_turn_rods{0.01, 5}, where_noise_does{0.03, 2};
 
 std::size_t contacts_of_all_ranks(const ContactProblem& problem) {
     const auto elsewhere = std::count(problem.is_elsewhere().begin(), problem.is_elsewhere().end(), 1);
@@ -80,7 +86,7 @@ std::optional<StepReport> Simulation::attempt() {
     find_known_motion(state_, motions_, *mobility, context(), known_);  // 1  U_known, and where it takes the rods
     timer.finish(StepPhase::known_velocity);
 
-    const StepGeometry geometry = step_geometry(state_, known_, sizes_, settings_, *mobility, domain_);
+    const StepGeometry geometry = step_geometry(state_, known_, sizes_, settings_, domain_);
     if (!neighbours_are_known(geometry)) {
         gather(geometry.ranges.skin);
         return std::nullopt;
@@ -131,29 +137,55 @@ ContactProblem Simulation::posed_problem(const MobilityOperator& mobility, Conta
                           std::move(start), domain_, opening);
 }
 
-// Theory 2.3: 0 <= A gamma + b  perp  gamma >= 0, with more contacts where forces turn out to bring rods together.
-// None if rods of other ranks might be among those.
+// Theory 2.3: 0 <= A gamma + b  perp  gamma >= 0. Of Brownian rods this says where their paths meet others; there they
+// are reflected, and what overlaps then is brought back to touching by the same problem (theory, section 3). None if
+// rods of other ranks might be near that are not known.
 std::optional<ContactSolution> Simulation::resolved(ContactProblem& problem, const StepGeometry& geometry,
                                                     StepReport& report) {
     const auto solver = make_contact_solver(problem, settings_.method, settings_.lcp);
-    int relinearisations = settings_.relinearise ? max_relinearisations : 0;
-    while (solver->run_to_next_stop()) {
-        const EndConfiguration end = end_configuration(problem.contact_matrix(), solver->solution());
-        Contacts more;
-        if (solver->near_solution() && relinearisations-- > 0) more = relinearised(problem, end);
-        const auto violated = search_.violated_pairs(geometry, problem.contacts(), end, solver->at_solution());
-        if (domain_.ranks().any(search_.lacks_pairs())) return std::nullopt;
-        more.append(search_.activate(violated, geometry));
-        more.append(wall_search_.violated(geometry, end));
-        more.append(fixed_rod_search_.violated(geometry, end));
-        if (more.size() > 0) problem.append(more, gap_velocities(more));
+    ContactSolution reflected;
+    if (!run_to_solution(*solver, problem, geometry, nullptr)) return std::nullopt;
+    if (solver->outcome().status == LcpStatus::converged && settings_.corrects_brownian_motion()) {
+        const double strain = settings_.flow ? settings_.flow->strain_of_step(state_.clock, settings_.time_step) : 0.0;
+        reflected.gamma =
+            reflected_forces(problem, solver->solution(), state_, known_, sizes_.own_mobility, settings_, strain);
+        problem.complete(reflected);
+        problem.pose_again(gap_velocities_beside(reflected, problem.contacts(), problem.contact_matrix()));
+        solver->begin_again();
+        if (!run_to_solution(*solver, problem, geometry, &reflected)) return std::nullopt;
     }
     const SolverOutcome& outcome = solver->outcome();
     report.status = outcome.status;
     report.residual = outcome.residual;
     report.iterations = outcome.iterations;
     report.solves = outcome.solves;
-    return std::move(*solver).take_solution();
+    ContactSolution solution = std::move(*solver).take_solution();
+    solution.add(reflected);
+    return solution;
+}
+
+// The contact problem, with more contacts where forces turn out to bring rods together. `acting`: forces that act
+// beside those sought, if any. Whether all rods were known that might be among the contacts.
+bool Simulation::run_to_solution(ContactSolver& solver, ContactProblem& problem, const StepGeometry& geometry,
+                                 const ContactSolution* acting) {
+    const bool is_last = acting || !settings_.corrects_brownian_motion();
+    const Relinearisation how = settings_.relinearise ? where_forces_turn_rods : where_noise_does;
+    int relinearisations = is_last && (settings_.relinearise || acting) ? how.max_times : 0;
+    while (solver.run_to_next_stop()) {
+        const EndConfiguration end = end_configuration(problem.contact_matrix(), acting, &solver.solution());
+        Contacts more;
+        if (solver.near_solution() && relinearisations-- > 0)
+            more = relinearised(problem, end, solver.solution(), how.max_overlap);
+        const auto violated = search_.violated_pairs(geometry, problem.contacts(), end, solver.at_solution());
+        if (domain_.ranks().any(search_.lacks_pairs())) return false;
+        more.append(search_.activate(violated, geometry));
+        more.append(wall_search_.violated(geometry, end));
+        more.append(fixed_rod_search_.violated(geometry, end));
+        if (more.size() == 0) continue;
+        const auto b = acting ? gap_velocities_beside(*acting, more, problem.contact_matrix()) : gap_velocities(more);
+        problem.append(more, b);
+    }
+    return true;
 }
 
 // Not in the paper: soft rods. The forces follow from where rods are before the step, and nothing has to be solved.
@@ -164,7 +196,7 @@ ContactSolution Simulation::repelled(const ContactProblem& problem) const {
     return solution;
 }
 
-// b of the contact problem (theory, eq. 3.3): the gap after the known motion, shifted, over dt; or as in the paper,
+// b of the contact problem (theory, eq. 3.3): the gap after the known motion over dt; or as in the paper,
 // b = Phi/dt + D^T U_known.
 std::vector<double> Simulation::gap_velocities(const Contacts& contacts) const {
     const double dt = settings_.time_step;
@@ -173,7 +205,7 @@ std::vector<double> Simulation::gap_velocities(const Contacts& contacts) const {
         const Contact& contact = contacts.contact[l];
         const bool found_later = contacts.feature[l] == ContactFeature::relinearised || contact.i == contact.j;
         if (settings_.brownian_correction || found_later) {
-            b[l] = contact.shifted_gap / dt;
+            b[l] = contact.gap_after / dt;
             return;
         }
         const auto velocity = [&](std::uint32_t body) {
@@ -186,13 +218,32 @@ std::vector<double> Simulation::gap_velocities(const Contacts& contacts) const {
     return b;
 }
 
+// b where other forces act already: the gap to which they take the rods, over dt.
+std::vector<double> Simulation::gap_velocities_beside(const ContactSolution& acting, const Contacts& contacts,
+                                                      const ContactMatrix& contact_matrix) {
+    std::vector<double> b = gaps_at(contacts, state_.box, end_configuration(contact_matrix, &acting, nullptr));
+    parallel_for(b.size(), [&](std::size_t l) {
+        if (contacts.feature[l] == ContactFeature::relinearised) b[l] = contacts.contact[l].gap_after;
+        b[l] /= settings_.time_step;
+    });
+    return b;
+}
+
 // Theory 2.4: where rods are after the step, and what forces add to the known motion of those with contacts.
-EndConfiguration Simulation::end_configuration(const ContactMatrix& contact_matrix, const ContactSolution& solution) {
+EndConfiguration Simulation::end_configuration(const ContactMatrix& contact_matrix, const ContactSolution* acting,
+                                               const ContactSolution* solution) {
     const double dt = settings_.time_step;
     const auto rows = contact_matrix.rods();
+    by_forces_.resize(rows.size());
     displacement_.resize(rows.size());
     parallel_for(rows.size(), [&](std::size_t k) {
-        const auto& [linear, axis_rate] = solution.velocities[k];
+        by_forces_[k] = {};
+        for (const ContactSolution* forces : {acting, solution}) {
+            if (!forces || k >= forces->velocities.size()) continue;
+            by_forces_[k].centre += forces->velocities[k].centre;
+            by_forces_[k].axis_rate += forces->velocities[k].axis_rate;
+        }
+        const auto& [linear, axis_rate] = by_forces_[k];
         const double half = 0.5 * state_.rods.length[rows[k]];
         // Rotations add up to second order in their angles.
         const double twist = half * dt * dt * norm(axis_rate) * norm(known_.velocity.angular[rows[k]]);
@@ -202,22 +253,25 @@ EndConfiguration Simulation::end_configuration(const ContactMatrix& contact_matr
         displacement_[k] = {in_float(centre), in_float(end), static_cast<float>(farthest + rounding),
                             static_cast<float>(twist + rounding)};
     });
-    return {state_.rods, known_.velocity,     known_.end,   dt, contact_matrix.local_index(),
-            rows,        solution.velocities, displacement_};
+    return {state_.rods, known_.velocity, known_.end,   dt, contact_matrix.local_index(),
+            rows,        by_forces_,      displacement_};
 }
 
 // Not in the paper (theory, eq. 2.18): the problem again, linear about where its solution takes those rods that would
 // overlap there.
-Contacts Simulation::relinearised(const ContactProblem& problem, const EndConfiguration& end) const {
+Contacts Simulation::relinearised(const ContactProblem& problem, const EndConfiguration& end,
+                                  const ContactSolution& solution, double max_overlap_per_diameter) const {
     // Beyond what the solver may leave.
     const double tolerance = settings_.lcp.residual == LcpResidual::length ? settings_.lcp.tolerance : 0.0;
-    const double max_overlap = max_overlap_of_turning * sizes_.mean_diameter + tolerance;
+    const double max_overlap = max_overlap_per_diameter * sizes_.mean_diameter + tolerance;
     Contacts contacts = relinearised_contacts(problem.contacts(), state_.box, end, max_overlap);
     contacts.append(relinearised_wall_contacts(problem.contacts(), state_.box, end, max_overlap));
     contacts.append(relinearised_fixed_rod_contacts(problem.contacts(), state_.box, end, max_overlap));
+    const auto velocity = [&](std::uint32_t body) {
+        return is_fixed(body) ? ContactVelocity{} : solution.velocities[end.local_index[body]];
+    };
     for (Contact& contact : contacts.contact)
-        contact.shifted_gap -=
-            settings_.time_step * gap_rate(contact, end.velocity_of(contact.i), end.velocity_of(contact.j));
+        contact.gap_after -= settings_.time_step * gap_rate(contact, velocity(contact.i), velocity(contact.j));
     return contacts;
 }
 

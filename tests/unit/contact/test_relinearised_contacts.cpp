@@ -50,7 +50,7 @@ TEST_CASE("a pair that is turned into overlap gets its nearest points there") {
     lowered.centre[2] += {0, 0, 2.5};
     const Contacts through_the_wall = overlaps(lowered, 0.01);
     REQUIRE(through_the_wall.size() == 1);
-    CHECK(through_the_wall.contact[0].shifted_gap == doctest::Approx(-0.5));
+    CHECK(through_the_wall.contact[0].gap_after == doctest::Approx(-0.5));
     CHECK(through_the_wall.contact[0].gap == doctest::Approx(2.0));  // before the step
     CHECK(through_the_wall.image[0] == Image{0, 0, -1});
 
@@ -62,5 +62,5 @@ TEST_CASE("a pair that is turned into overlap gets its nearest points there") {
     const auto other = std::find(passed.image.begin(), passed.image.end(), Image{0, 0, -1}) - passed.image.begin();
     REQUIRE(static_cast<std::size_t>(other) < passed.size());
     CHECK(norm(passed.contact[other].normal - Vec3{0, 0, -1}) < 1e-12);
-    CHECK(passed.contact[other].shifted_gap == doctest::Approx(-3.25));
+    CHECK(passed.contact[other].gap_after == doctest::Approx(-3.25));
 }

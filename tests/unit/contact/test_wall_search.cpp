@@ -96,7 +96,7 @@ TEST_CASE("ends that only contact forces bring to a wall are found at the end of
     known.centre[0] = rods.centre[0];
     known.axis[0] = rods.axis[0];
     const std::vector<double> none{0.0};
-    const StepGeometry step = {rods, slit, known, none, {none}, {0.2, 0.0, 0.02, 0.0}};
+    const StepGeometry step = {rods, slit, known, none, {0.2, 0.0, 0.02, 0.0}};
     WallSearch search;
     Contacts contacts;
     CHECK(search.find(step, contacts) == 0.0);

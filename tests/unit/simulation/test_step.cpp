@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "jostle/contact/time_step_correction.hpp"
 #include "jostle/motion/self_propulsion.hpp"
 #include "jostle/setup/assemble.hpp"
 #include "jostle/setup/largest_overlap.hpp"

@@ -1,0 +1,50 @@
+#include "jostle/simulation/reflected_forces.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "jostle/contact/gap_drift.hpp"
+#include "jostle/contact/reflection.hpp"
+#include "jostle/parallel/parallel_for.hpp"
+
+namespace jostle {
+
+namespace {
+
+/// By how much the gap of a contact opens in a step without noise, curvature apart: by motions and forces, by a flow
+/// that has sheared the box, and by what else has brought the rods to overlap as the step began.
+double drift_of_motions(const Contact& contact, const Rods& rods, const Velocities& drift, double time_step,
+                        double strain) {
+    const double begun = std::min(contact.gap, 0.0);
+    const double sheared = strain * contact.normal.x * contact.normal.y * contact_radii(contact, rods);
+    if (drift.size() == 0) return begun + sheared;
+    const auto velocity = [&](std::uint32_t body) {
+        return is_fixed(body) ? ContactVelocity{}
+                              : ContactVelocity{drift.linear[body], cross(drift.angular[body], rods.axis[body])};
+    };
+    return begun + sheared + time_step * gap_rate(contact, velocity(contact.i), velocity(contact.j));
+}
+
+}  // namespace
+
+std::vector<double> reflected_forces(const ContactProblem& problem, const ContactSolution& solution, const State& state,
+                                     const KnownMotion& known, std::span<const RodMobility> own,
+                                     const SimulationSettings& settings, double strain) {
+    const GapDrift curvature(state.rods, state.box, own);
+    const double dt = settings.time_step;
+    std::vector<double> gamma = solution.gamma;
+    parallel_for(gamma.size(), [&](std::size_t l) {
+        if (gamma[l] == 0.0 || problem.contacts().feature[l] == ContactFeature::relinearised) return;
+        const Contact& contact = problem.contacts().contact[l];
+        const double compliant = problem.matrix().diagonal()[l];
+        const double rigid = compliant - problem.matrix().compliance(l);
+        if (!(rigid > 0.0)) return;
+        const double drift = drift_of_motions(contact, state.rods, known.drift, dt, strain) +
+                             settings.kT * dt * curvature(contact, problem.contacts().image[l]);
+        const double sigma = std::sqrt(2.0 * settings.kT * dt * rigid);
+        gamma[l] *= compliant / rigid * reflected_part(compliant * gamma[l] * dt, drift, sigma);
+    });
+    return gamma;
+}
+
+}  // namespace jostle
