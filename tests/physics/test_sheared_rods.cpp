@@ -83,7 +83,7 @@ TEST_CASE("at a moderate density geometric and orientation stress are what the f
     const double diffusion = rotational_mobility(started(still));
     scene.flow.shear_rate = 6.0 * diffusion;
     Simulation simulation = started(scene);
-    constexpr int before = 4000, steps = 32000, a_row = 20;
+    constexpr int before = 4000, steps = 48000, a_row = 20;
     std::array<std::vector<double>, 6> differences, turning;
     std::array<double, 6> difference{}, left{};
     for (int step = 0; step < before + steps; ++step) {

@@ -87,11 +87,6 @@ EndPoints end_points(const PairGeometry& pair, const Point& nearest, double rang
     return ends;
 }
 
-/// Distance of the points of a contact, less (D_i + D_j)/2.
-double gap_of_points(const Contact& contact, const PairGeometry& pair) {
-    return norm(pair.between + contact.arm_j * pair.axis_j - contact.arm_i * pair.axis_i) - pair.radii;
-}
-
 /// The pair after a part of its way.
 PairGeometry on_the_way(const MovingPair& pair) {
     const auto between = [part = pair.normals_after](const Vec3& a, const Vec3& b) { return a + part * (b - a); };
@@ -170,8 +165,11 @@ void append_moving_contacts(const PairKey& key, const MovingPair& pair, double r
         append_contacts(key, pair.before, pair.nearest, norm(pair.nearest.separation), range, dimensions, contacts);
     for (std::size_t l = first; l < contacts.size(); ++l) {
         Contact& contact = contacts.contact[l];
-        if (moved) contact.gap = gap_of_points(contact, pair.before);
-        contact.gap_after = gap_of_contact(contact, contacts.feature[l], pair.after);
+        const ContactFeature feature = contacts.feature[l];
+        if (moved)
+            contact.gap = feature == ContactFeature::nearest ? norm(pair.nearest.separation) - pair.before.radii
+                                                             : gap_of_contact(contact, feature, pair.before);
+        contact.gap_after = gap_of_contact(contact, feature, pair.after);
     }
 }
 
