@@ -96,7 +96,9 @@ def test_contacts_name_the_right_cells_where_some_have_died(cells):
         assert np.array_equal(before.id[i], contacts["id_i"]) and np.array_equal(before.id[j], contacts["id_j"])
         points = [before.centre[k] + contacts[arm][:, None] * before.axis[k] for k, arm in ((i, "arm_i"), (j, "arm_j"))]
         distance = np.linalg.norm(points[1] + contacts["image"] * simulation.edges - points[0], axis=1)
-        assert np.allclose(distance - 1.0, contacts["gap"], atol=1e-12)
+        # The points are those that are nearest half way through the known motion; before it, nearer ones may be by.
+        farther = distance - 1.0 - contacts["gap"]
+        assert np.all(farther > -1e-12) and np.all(farther < 2e-3)
         looked += len(contacts)
     assert looked >= 10
 

@@ -26,8 +26,8 @@ struct Contact {
     Vec3 normal;
     double arm_i = 0.0;  ///< 0 of a fixed body
     double arm_j = 0.0;
-    double gap = 0.0;        ///< before the step: distance of the segments' points less `contact_radii`
-    double gap_after = 0.0;  ///< after the known motion of the step
+    double gap = 0.0;        ///< before the step, of the points that the contact follows (theory, eq. 3.4)
+    double gap_after = 0.0;  ///< the same after the known motion of the step
 };
 
 /// How far apart the points of a contact are where its bodies touch: (D_i + D_j)/2, or D_j/2 from a fixed body.

@@ -12,7 +12,7 @@ namespace jostle {
 namespace {
 
 // Root-mean-square steps, in D: docs/guide/scene.md, "Time step".
-constexpr double automatic_rms_step = 0.05, advised_rms_step = 0.1;
+constexpr double automatic_rms_step = 0.04, advised_rms_step = 0.1;
 
 }  // namespace
 
