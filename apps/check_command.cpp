@@ -13,6 +13,7 @@
 #include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/schedule.hpp"
+#include "jostle/scene/step_accuracy.hpp"
 #include "jostle/scene/step_limits.hpp"
 #include "jostle/scene/time_step.hpp"
 #include "jostle/scene/units.hpp"
@@ -111,7 +112,12 @@ void print_swimming(const Scene& scene, const MobilityOperator& mobility, const 
                                    (too_short ? ": the run may be too short to measure the active stress" : ""));
 }
 
-void print_motion(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, double dt) {
+std::string step_error_text(const Rods& rods, const Box& box, double rms_step) {
+    const StepError error = known_step_error(rods, box);
+    return fmt::format("at most {:.2g} %, as was measured of {}", 100.0 * largest_step_error(rms_step, error), error.states);
+}
+
+void print_motion(const Scene& scene, const MobilityOperator& mobility, const Box& box, const Rods& rods, double dt) {
     const double kT = thermal_energy(scene);
     const RodMobility rod = mobility.of_rod(0);
     const double diameter = *std::min_element(rods.diameter.begin(), rods.diameter.end());
@@ -125,7 +131,9 @@ void print_motion(const Scene& scene, const MobilityOperator& mobility, const Ro
         print("D_R, 1/D_R",
               with_unit(rotation, scene, dimension::rate) + ", " + with_unit(1.0 / rotation, scene, dimension::time));
         print("dt D_R", fmt::format("{:.3g}", dt * rotation));
-        print("rms step / D", fmt::format("{:.4g}", std::sqrt(2.0 * fastest * dt) / diameter));
+        const double rms_step = std::sqrt(2.0 * fastest * dt) / diameter;
+        print("rms step / D", fmt::format("{:.4g}", rms_step));
+        if (unknown_step_error(scene).empty()) print("error of Z by the step", step_error_text(rods, box, rms_step));
     }
     const double speed = scene.motion.self_propulsion;
     if (swims(scene)) {
@@ -313,7 +321,7 @@ ExitCode check(const Scene& scene, const std::string& scene_path) {
     print_schedule(scene, box, population.volume);
     print("time step", with_unit(dt, scene, dimension::time));
     for (const std::string& warning : warnings_of_step(limits, dt)) print("WARNING", warning);
-    print_motion(scene, *mobility, population.rods, dt);
+    print_motion(scene, *mobility, box, population.rods, dt);
     if (swims(scene)) print_swimming(scene, *mobility, population.rods, dt);
     print_limits(scene, population.rods, *mobility, springs, dt);
     if (field) {

@@ -42,12 +42,12 @@ def runs(quick):
                        "solver": {"tolerance": 1e-4}, "output": {"stress_conventions": True, "trajectory_every": 500 if quick else 2000}},
                 equilibration=1000 * equilibration,
                 production=1000 * production)
-            for (start, phi, rms), (equilibration, production) in chosen.items()]
+            for (start, phi, rms), (equilibration, production) in sorted(chosen.items(), key=lambda item: -sum(item[1]))]  # the longest first
 
 
 def evaluate(report, runs_by_name, quick):
     rows, parts, numbers, points, not_judged = [], [], [], {}, []
-    for run in runs_by_name.values():
+    for run in sorted(runs_by_name.values(), key=lambda run: (run.scene["rods"]["start"], run.scene["box"]["volume_fraction"])):
         if run.scene["time"]["rms_step"] == LONG_STEP:
             continue
         start, phi = run.scene["rods"]["start"], run.scene["box"]["volume_fraction"]

@@ -51,7 +51,7 @@ def evaluate(report, runs_by_name, _):
         points.append((phi, Z, error, reference, both))
     some = next(iter(runs_by_name.values()))
     steps = sum(run.record["steps"] for run in runs_by_name.values())
-    report.table(f"{some.summary['rods']} rods L/D = {BETA}, rms step 0.03 D, {steps} steps in all; standard errors are corrected for correlation, and the "
+    report.table(f"{some.summary['rods']} rods L/D = {BETA}, rms step 0.04 D, {steps} steps in all; standard errors are corrected for correlation, and the "
                  "difference is also given in combined standard errors, those of Z and of the reference.",
                  ["phi", "Z", "standard error", "reference Z", "difference, %", "in standard errors"], rows)
     report.numbers(["phi", "Z", "standard_error", "reference_Z", "reference_standard_error", "difference_per_cent",

@@ -112,11 +112,21 @@ def test_the_fastest_swimmer(tmp_path):
     assert 0.04 < number(derived["propelled per step / D"]) < 0.1  # of 50 rods, some 2.2 deviations above the mean
 
 
+def test_a_step_from_an_accuracy(tmp_path):
+    """The error of a step is of second order: a quarter of it takes half the step."""
+    steps = []
+    for accuracy in (0.008, 0.002):
+        _, derived = check(tmp_path, changed(RODS, time={"step": None, "accuracy": accuracy}))
+        assert derived["error of Z by the step"] == f"at most {100 * accuracy:g} %, as was measured of isotropic fluids"
+        steps.append(number(derived["rms step / D"]))
+    assert steps[0] == pytest.approx(2 * steps[1], rel=1e-3) and 0.03 < steps[1] < 0.05
+
+
 def test_defaults_are_spelled_out(tmp_path):
     """The resolved scene holds every key, means the same, and is what a run keeps."""
     scene, derived = check(tmp_path, changed(RODS, time={"step": None}))
     assert scene["time"]["step"] == "auto" and "rms_step" not in scene["time"]
-    assert number(derived["rms step / D"]) == pytest.approx(0.03, rel=1e-3)
+    assert number(derived["rms step / D"]) == pytest.approx(0.04, rel=1e-3)
     assert set(scene) == {"title", "seed", "units", "box", "rods", "fluid", "mobility", "motion", "growth", "contact",
                           "solver",
                           "time", "output", "walls", "forces", "flow"}

@@ -155,6 +155,7 @@ struct Scene {
     struct Time {
         std::optional<double> step;           // either this; "auto" (empty): from all that moves, `time_step` ...
         std::optional<double> rms_step;       // ... or sqrt(2 D_t step), fastest rod, over D, thinnest
+        std::optional<double> accuracy;       // of Z, relative: the diffusion in an automatic step follows from it
         std::optional<double> equilibration;  // "auto" (empty) or a time
         double production = 0.0;              // time averaged over
         bool operator==(const Time&) const = default;

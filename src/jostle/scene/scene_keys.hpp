@@ -149,6 +149,7 @@ void for_each_key(AnyScene& scene, Visitor&& visit) {
     visit("solver", "max_iterations", scene.solver.max_iterations, Count{.lower = 1, .may_change = true});
     visit("time", "step", scene.time.step, Quantity{dim::time, positive, true});
     visit("time", "rms_step", scene.time.rms_step, Quantity{dim::none, {1e-6, 0.5}});
+    visit("time", "accuracy", scene.time.accuracy, Quantity{dim::none, {1e-3, 0.05}});
     visit("time", "equilibration", scene.time.equilibration, Quantity{dim::time, zero_or_positive, true, true});
     visit("time", "production", scene.time.production,
           Quantity{.dimension = dim::time, .range = positive, .may_change = true});

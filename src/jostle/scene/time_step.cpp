@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "jostle/error/refuse.hpp"
 #include "jostle/scene/number_text.hpp"
@@ -11,6 +12,7 @@
 #include "jostle/scene/scene_keys.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/schedule.hpp"
+#include "jostle/scene/step_accuracy.hpp"
 #include "jostle/scene/step_limits.hpp"
 
 namespace jostle {
@@ -19,11 +21,14 @@ namespace {
 
 constexpr auto largest_step_number = static_cast<double>(max_steps);
 
-double automatic_step(std::span<const StepLimit> limits) {
+/// `diffusion`: the amount of diffusion in a step, in place of its automatic one.
+double automatic_step(std::span<const StepLimit> limits, std::optional<double> diffusion) {
     double step = StepLimit::none;
-    for (const StepLimit& limit : limits)
-        if (limit.rate > 0.0 && std::isfinite(limit.rate))
-            step = std::min(step, limit.step_of(std::min(limit.automatic, limit.largest)));
+    for (const StepLimit& limit : limits) {
+        if (!(limit.rate > 0.0 && std::isfinite(limit.rate))) continue;
+        const double automatic = limit.key == "fluid.kT" ? diffusion.value_or(limit.automatic) : limit.automatic;
+        step = std::min(step, limit.step_of(std::min(automatic, limit.largest)));
+    }
     if (std::isfinite(step) && step > 0.0) return step;
     refuse("time.step", "", "is missing, and nothing in the scene moves that a step could be found from",
            "a time, greater than 0", "Add step = 1e-3 under [time]");
@@ -43,8 +48,11 @@ double time_step(const Scene& scene, const Mobility& model, const Box& box, cons
         const double kT = thermal_energy(scene_at_its_hardest(scene));
         return length * length / (2.0 * fastest_diffusion(kT, *model.at(rods, box), rods.size(), box.dimensions()));
     }
+    std::optional<double> diffusion;
+    if (scene.time.accuracy) diffusion = rms_step_of_accuracy(*scene.time.accuracy, known_step_error(rods, box));
     return automatic_step(scene.growth.rate > 0.0 ? lasting_step_limits(scene, model, box)
-                                                  : step_limits(scene, model, box, rods, springs));
+                                                  : step_limits(scene, model, box, rods, springs),
+                          diffusion);
 }
 
 void require_short_step(std::span<const StepLimit> limits, double step) {

@@ -22,6 +22,7 @@
 #include "jostle/scene/scene_ranges.hpp"
 #include "jostle/scene/scene_walls.hpp"
 #include "jostle/scene/schedule.hpp"
+#include "jostle/scene/step_accuracy.hpp"
 #include "jostle/scene/step_limits.hpp"
 #include "jostle/scene/time_step.hpp"
 #include "jostle/scene/unused_keys.hpp"
@@ -252,6 +253,20 @@ void check_rms_step(const Scene& scene) {
                "Give time.step instead");
 }
 
+void check_accuracy(const Scene& scene) {
+    if (!scene.time.accuracy) return;
+    const bool by_time = scene.time.step.has_value();
+    if (by_time || scene.time.rms_step)
+        refuse("time.accuracy", text(*scene.time.accuracy),
+               fmt::format("is given beside {} = {}", by_time ? "time.step" : "time.rms_step",
+                           by_time ? *scene.time.step : *scene.time.rms_step),
+               "one of the two, not both", "Keep one of them");
+    if (const std::string reason = unknown_step_error(scene); !reason.empty())
+        refuse("time.accuracy", text(*scene.time.accuracy),
+               "needs to know the error that a step makes, which was measured for hard Brownian rods in equilibrium; "
+               "here " + reason, "", "Remove it, or give time.step or time.rms_step");
+}
+
 void check_time(const Scene& scene) {
     if (scene.time.step && scene.time.rms_step)
         refuse("time.rms_step", text(*scene.time.rms_step),
@@ -264,6 +279,7 @@ void check_time(const Scene& scene) {
         refuse("time.step", "", "is missing, and nothing in the scene moves that a step could be found from",
                "a time, greater than 0", "Add step = 1e-3 under [time]");
     check_rms_step(scene);
+    check_accuracy(scene);
     if (scene.time.step) require_countable_steps(scene, *scene.time.step);
 }
 

@@ -44,7 +44,11 @@ constexpr std::pair<std::string_view, std::string_view> alternatives[] = {
     {"schedule.volume_fraction", "schedule.edges"},
     {"schedule.area_fraction", "schedule.edges"},
     {"time.step", "time.rms_step"},
-    {"time.rms_step", "time.step"}};
+    {"time.step", "time.accuracy"},
+    {"time.rms_step", "time.step"},
+    {"time.rms_step", "time.accuracy"},
+    {"time.accuracy", "time.step"},
+    {"time.accuracy", "time.rms_step"}};
 
 bool sets(const std::vector<Setting>& settings, std::string_view key) {
     return std::any_of(settings.begin(), settings.end(), [&](const Setting& setting) { return setting.key == key; });

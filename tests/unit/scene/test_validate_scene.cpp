@@ -70,7 +70,7 @@ TEST_CASE("good scenes pass") {
     CHECK(refused_key([](Scene& s) { s.fluid.kT = 0.0; }) == "");
     CHECK(refused_key([](Scene& s) { s.motion.brownian = false; }) == "");
     CHECK(refused_key([](Scene& s) { s.mobility.model = MobilityModel::slender_body; }) == "");
-    CHECK(refused_key([](Scene& s) { s.time = {std::nullopt, 0.03, 1.0, 5.0}; }) == "");
+    CHECK(refused_key([](Scene& s) { s.time = {std::nullopt, 0.03, std::nullopt, 1.0, 5.0}; }) == "");
     CHECK(refused_key([](Scene& s) { s.seed = std::numeric_limits<std::int64_t>::max(); }) == "");
     CHECK(refused_key([](Scene& s) { s.rods.count = 2147483647; }) == "");
 }
@@ -80,7 +80,7 @@ TEST_CASE("no quantity may be nan, infinite or out of bounds, whichever key it i
     std::string key;
     int quantities = 0;
     while (set_quantity(counted, quantities, 1.0, key)) ++quantities;
-    CHECK(quantities == 51);
+    CHECK(quantities == 52);
     for (int index = 0; index < quantities; ++index)
         for (const double value : {not_a_number, infinity, -infinity, 1e300, -1e300}) {
             std::string changed, message;
@@ -92,7 +92,7 @@ TEST_CASE("no quantity may be nan, infinite or out of bounds, whichever key it i
                     s.motion = {true, 1.0, 0.1, 0.1, 1.0, 0.1};
                     if (changed == "rods.axis") s.rods.start = StartKind::aligned;
                     if (changed == "box.edges") s.box.volume_fraction.reset();
-                    if (changed == "time.rms_step") s.time.step.reset();
+                    if (changed == "time.rms_step" || changed == "time.accuracy") s.time.step.reset();
                     s.output.field_every = 10;
                     if (changed.starts_with("growth.")) {
                         s.growth.rate = 0.1;
@@ -215,9 +215,21 @@ TEST_CASE("keys beside keys") {
               s.rods.start = StartKind::aligned;
               s.rods.axis = {0, 0, 0};
           }) == "rods.axis");
-    const auto rms = [](Scene& s) { s.time = {std::nullopt, 0.03, std::nullopt, 5.0}; };
+    const auto rms = [](Scene& s) { s.time.step.reset(), s.time.rms_step = 0.03; };
     CHECK(refused_key([&](Scene& s) { rms(s), s.fluid.kT = 0.0; }) == "time.rms_step");
     CHECK(refused_key([&](Scene& s) { rms(s), s.motion.brownian = false; }) == "time.rms_step");
+}
+
+TEST_CASE("time.accuracy is for scenes whose error at a finite step is known, and instead of a step") {
+    const auto accurate = [](Scene& s) { s.time.step.reset(), s.time.accuracy = 0.01; };
+    CHECK(refused_key([&](Scene& s) { accurate(s); }) == "");
+    CHECK(refused_key([&](Scene& s) { accurate(s), s.time.step = 0.01; }) == "time.accuracy");
+    CHECK(refused_key([&](Scene& s) { accurate(s), s.time.rms_step = 0.01; }) == "time.accuracy");
+    CHECK(refused_key([&](Scene& s) { accurate(s), s.time.accuracy = 0.2; }) == "time.accuracy");
+    CHECK(refused_key([&](Scene& s) { accurate(s), s.motion.self_propulsion = 1.0; }) == "time.accuracy");
+    CHECK(refused_key([&](Scene& s) { accurate(s), s.contact.brownian_correction = false; }) == "time.accuracy");
+    CHECK(refused_key([&](Scene& s) { accurate(s), s.mobility.model = MobilityModel::hydrodynamic; }) ==
+          "time.accuracy");
 }
 
 TEST_CASE("keys of swimmers") {

@@ -1,0 +1,52 @@
+#include "jostle/scene/step_accuracy.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "jostle/scene/scene_box.hpp"
+#include "jostle/scene/scene_flow.hpp"
+#include "jostle/scene/scene_motion.hpp"
+#include "jostle/scene/schedule.hpp"
+
+namespace jostle {
+
+namespace {
+
+constexpr double reference_step = 0.06, longest_measured_step = 0.1;
+constexpr double error_of_fluids = 0.006, error_of_ordered_rods = 0.015;
+
+}  // namespace
+
+StepError known_step_error(const Rods& rods, const Box& box) {
+    double aspect_ratio = 0.0;
+    for (std::size_t i = 0; i < rods.size(); ++i)
+        aspect_ratio = std::max(aspect_ratio, rods.length[i] / rods.diameter[i]);
+    if (total_volume(rods) / box.volume() > isotropic_limit(aspect_ratio, 3))
+        return {"rods that order", error_of_ordered_rods};
+    return {"isotropic fluids", error_of_fluids};
+}
+
+double largest_step_error(double rms_step, const StepError& error) {
+    const double ratio = rms_step / reference_step;
+    return error.at_reference * ratio * ratio;
+}
+
+double rms_step_of_accuracy(double accuracy, const StepError& error) {
+    return std::min(reference_step * std::sqrt(accuracy / error.at_reference), longest_measured_step);
+}
+
+std::string unknown_step_error(const Scene& scene) {
+    if (thermal_energy(scene) == 0.0) return "there is no Brownian motion";
+    if (!scene.contact.brownian_correction) return "contact.brownian_correction = false";
+    if (scene.contact.model != ContactModel::hard) return "rods are soft";
+    if (swims(scene)) return "rods swim";
+    if (scene.growth.rate > 0.0) return "rods grow";
+    if (flows(scene)) return "there is a flow";
+    if (scene.pressure.external) return "a pressure sets the volume";
+    if (has_schedule(scene)) return "there is a [schedule]";
+    if (dimensions_of(scene) == 2) return "rods lie in a plane";
+    if (scene.mobility.model == MobilityModel::hydrodynamic) return "rods move each other through the fluid";
+    return "";
+}
+
+}  // namespace jostle
