@@ -6,8 +6,8 @@
 #include <string>
 
 #include "jostle/contact/find_contacts.hpp"
-#include "jostle/contact/segment_distance.hpp"
 #include "jostle/contact/reflection.hpp"
+#include "jostle/contact/segment_distance.hpp"
 #include "jostle/contact_problem/block_gauss_seidel.hpp"
 #include "jostle/math/random.hpp"
 #include "jostle/motion/brownian_motion.hpp"

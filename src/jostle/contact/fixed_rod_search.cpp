@@ -28,8 +28,7 @@ double FixedRodSearch::find(const StepGeometry& step, Contacts& contacts) {
     const std::size_t count = step.rods.size();
     reach_.resize(count);
     parallel_for(count, [&](std::size_t i) {
-        reach_[i] =
-            step.displacement[i] + std::max(step.ranges.activation_margin, step.ranges.range);
+        reach_[i] = step.displacement[i] + std::max(step.ranges.activation_margin, step.ranges.range);
     });
     grid_.fit(step.box, reach_from_centre(step.rods, *step.box.fixed_rods(), reach_));
     const std::size_t first = contacts.size();

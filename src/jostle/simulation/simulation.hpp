@@ -103,8 +103,8 @@ private:
     ContactSolution repelled(const ContactProblem& problem) const;
     EndConfiguration end_configuration(const ContactMatrix& contact_matrix, const ContactSolution* acting,
                                        const ContactSolution* solution);
-    Contacts relinearised(const ContactProblem& problem, const EndConfiguration& end,
-                          const ContactSolution& solution, double max_overlap_per_diameter) const;
+    Contacts relinearised(const ContactProblem& problem, const EndConfiguration& end, const ContactSolution& solution,
+                          double max_overlap_per_diameter) const;
     void advance(StepReport& report);
     void open_box(StepReport& report);
     /// Whether contact forces do, in the step in which they act.
