@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "jostle/contact/contacts.hpp"
+#include "jostle/rods/velocities.hpp"
 
 namespace jostle {
 
@@ -23,6 +24,16 @@ struct ContactVelocity {
 template <class ContactLike>
 double gap_rate(const ContactLike& contact, const ContactVelocity& i, const ContactVelocity& j) {
     return dot(contact.normal, j.centre + contact.arm_j * j.axis_rate - i.centre - contact.arm_i * i.axis_rate);
+}
+
+/// The same where rods (N) move with these velocities; fixed bodies stay.
+inline double gap_rate(const Contact& contact, const Rods& rods, const Velocities& velocities) {
+    const auto velocity = [&](std::uint32_t body) {
+        return is_fixed(body)
+                   ? ContactVelocity{}
+                   : ContactVelocity{velocities.linear[body], cross(velocities.angular[body], rods.axis[body])};
+    };
+    return gap_rate(contact, velocity(contact.i), velocity(contact.j));
 }
 
 /// Adds D gamma of a contact to what acts on its two rods.
