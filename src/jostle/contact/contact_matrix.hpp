@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "jostle/contact/contacts.hpp"
+#include "jostle/rods/forces.hpp"
 #include "jostle/rods/velocities.hpp"
 
 namespace jostle {
@@ -20,6 +21,16 @@ struct ContactVelocity {
     Vec3 centre, axis_rate;
 };
 
+/// Makes entry k of `forces` what this contact force is to a rod with this axis.
+inline void set_force(const ContactForce& force, const Vec3& axis, std::size_t k, Forces& forces) {
+    forces.force[k] = force.force;
+    forces.torque[k] = cross(axis, force.moment);
+}
+/// What entry k of `velocities` is to the contacts of a rod with this axis.
+inline ContactVelocity contact_velocity(const Velocities& velocities, std::size_t k, const Vec3& axis) {
+    return {velocities.linear[k], cross(velocities.angular[k], axis)};
+}
+
 /// How fast the gap of a contact (or what else has its normal and arms) opens, D^T U.
 template <class ContactLike>
 double gap_rate(const ContactLike& contact, const ContactVelocity& i, const ContactVelocity& j) {
@@ -29,9 +40,7 @@ double gap_rate(const ContactLike& contact, const ContactVelocity& i, const Cont
 /// The same where rods (N) move with these velocities; fixed bodies stay.
 inline double gap_rate(const Contact& contact, const Rods& rods, const Velocities& velocities) {
     const auto velocity = [&](std::uint32_t body) {
-        return is_fixed(body)
-                   ? ContactVelocity{}
-                   : ContactVelocity{velocities.linear[body], cross(velocities.angular[body], rods.axis[body])};
+        return is_fixed(body) ? ContactVelocity{} : contact_velocity(velocities, body, rods.axis[body]);
     };
     return gap_rate(contact, velocity(contact.i), velocity(contact.j));
 }

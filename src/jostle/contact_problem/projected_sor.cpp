@@ -114,8 +114,7 @@ public:
         sweeper_.refresh(solution_);
         LcpResult result;
         result.velocity.resize(problem_.size());
-        problem_.matrix().rates(solution_.velocities, solution_.gamma, result.velocity);
-        parallel_for(result.velocity.size(), [&](std::size_t l) { result.velocity[l] += problem_.constant()[l]; });
+        problem_.gap_velocities(solution_, result.velocity);
         result.solution.swap(solution_.gamma);
         result.residual = lcp_residual(problem_.lcp(), settings_.residual, result.solution, result.velocity);
         outcome_.status = lcp_status(problem_.lcp(), settings_, result);
