@@ -233,7 +233,7 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     const std::size_t first = window.first_row;
     const std::string stress_unit = unit_of_stress(scene);
     const Rods& rods = simulation.rods();
-    const bool thermal = simulation.settings().kT > 0.0, grows = scene.growth.rate > 0.0;
+    const bool thermal = simulation.settings().kT > 0.0;
     const bool springs = !scene.springs.file.empty();
     const auto average_of = [&](const char* name) { return average(from_row(series.column(name), first)); };
     const Columns collision = window_columns(series, first, stress_column_names);
@@ -267,7 +267,7 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     summary["stress"]["definition"] = fmt::format("kinetic + orientation + collision{}{}", springs ? " + springs" : "",
                                                   has_torques(scene) ? " + torques" : "");
     const bool ramped = is_ramped(scene, window);
-    const double number = grows ? average_of("N").mean : static_cast<double>(rods.size());
+    const double number = grows(scene) ? average_of("N").mean : static_cast<double>(rods.size());
     const double kinetic = ramped || scene.pressure.external
                                ? kinetic_pressure(series, first, springs)
                                : number / simulation.box().volume() * simulation.settings().kT;
@@ -346,7 +346,7 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     const Average count = average_of("N");
     if (count.standard_deviation > 0.0 && !count.standard_error)
         withhold_errors(summary, "The number of cells changes throughout: averages are of no state that lasts.");
-    else if (!window.equilibrated() && !grows)
+    else if (!window.equilibrated() && !grows(scene))
         withhold_errors(summary, "Equilibrium: " + in_words(window.equilibrium) + ".");
     return summary;
 }

@@ -43,8 +43,8 @@ double time_step(const Scene& scene, const Mobility& model, const Box& box, cons
         const double kT = thermal_energy(scene_at_its_hardest(scene));
         return length * length / (2.0 * fastest_diffusion(kT, *model.at(rods, box), rods.size(), box.dimensions()));
     }
-    return automatic_step(scene.growth.rate > 0.0 ? lasting_step_limits(scene, model, box)
-                                                  : step_limits(scene, model, box, rods, springs));
+    return automatic_step(grows(scene) ? lasting_step_limits(scene, model, box)
+                                       : step_limits(scene, model, box, rods, springs));
 }
 
 void require_short_step(std::span<const StepLimit> limits, double step) {

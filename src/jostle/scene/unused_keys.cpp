@@ -71,7 +71,7 @@ std::vector<UnusedKey> unused_keys(const Scene& scene) {
         for (const char* key : {"contact.brownian_correction", "contact.range", "solver.method", "solver.warm_start",
                                 "solver.step_rule", "solver.residual", "solver.tolerance", "solver.max_iterations"})
             unused.push_back({key, with_model + ": there is no contact problem", "Remove it"});
-    if (scene.growth.rate == 0.0)
+    if (!grows(scene))
         for (const char* key : {"growth.rate_deviation", "growth.division", "growth.division_length",
                                 "growth.division_deviation", "growth.daughters", "growth.stall_force",
                                 "growth.stall_memory", "growth.death_rate", "growth.division_every"})

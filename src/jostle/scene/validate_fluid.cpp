@@ -71,7 +71,7 @@ void check_motions(const Scene& scene) {
                    "{} the fluid would have to flow with a box that is squeezed, and other ramps have not been tried",
                    with_fluid),
                "no [schedule]", without_fluid);
-    if (scene.growth.rate > 0.0)
+    if (grows(scene))
         refuse("growth.rate", text(scene.growth.rate),
                fmt::format("{} what grows drives the fluid away, and this flow is not known", with_fluid), "0",
                without_fluid);

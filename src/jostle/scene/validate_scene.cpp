@@ -143,7 +143,7 @@ void check_schedule(const Scene& scene) {
                fmt::format("is given beside schedule.{}", parts_of_key(fraction_key(scene)).second),
                "one of the two, not both", "Keep one of them; the other follows from it");
     const std::string key = key_of_box_ramp(scene);
-    if (scene.growth.rate > 0.0)
+    if (grows(scene))
         refuse(key, "", "changes the box, and with growth.rate cells change what fills it", "one of the two, not both",
                "Remove [growth], or the key");
     for (std::size_t k = 0; k < static_cast<std::size_t>(dimensions_of(scene)); ++k)
@@ -189,7 +189,7 @@ double shortest_daughter(const Scene& scene, double diameter) {
 }
 
 void check_springs(const Scene& scene) {
-    if (!scene.springs.file.empty() && scene.growth.rate > 0.0)
+    if (!scene.springs.file.empty() && grows(scene))
         refuse("springs.file", scene.springs.file,
                "springs hold rods that stay, and with growth.rate cells divide and die", "no springs, or no growth",
                "Remove [springs] or [growth]");
@@ -246,7 +246,7 @@ void check_rms_step(const Scene& scene) {
         refuse("time.rms_step", text(*scene.time.rms_step),
                fmt::format("measures the step by the Brownian motion, and there is none: {}", reason), "",
                "Give time.step instead");
-    if (scene.growth.rate > 0.0)
+    if (grows(scene))
         refuse("time.rms_step", text(*scene.time.rms_step),
                "measures the step by the Brownian motion of rods, which changes as they grow", "",
                "Give time.step instead");
@@ -258,7 +258,7 @@ void check_time(const Scene& scene) {
                fmt::format("is given beside time.step = {}", *scene.time.step), "one of the two, not both",
                "Keep one of them");
     const bool moves = thermal_energy(scene_at_its_hardest(scene)) > 0.0 || swims(scene) || squeezes_box(scene) ||
-                       scene.growth.rate > 0.0 || !scene.springs.file.empty() || scene.forces.on_rods != Vec3{} ||
+                       grows(scene) || !scene.springs.file.empty() || scene.forces.on_rods != Vec3{} ||
                        scene.forces.alignment_energy != 0.0 || flows(scene) || scene.pressure.external;
     if (!scene.time.step && !scene.time.rms_step && !moves)
         refuse("time.step", "", "is missing, and nothing in the scene moves that a step could be found from",
@@ -372,8 +372,7 @@ void validate_box(const Scene& scene, double rods_volume, double largest_diamete
 }
 
 void validate_contact_range(const Scene& scene, double longest) {
-    const bool grows = scene.growth.rate > 0.0;
-    const double cell = grows ? scene.growth.division_length + largest_diameter(scene) : 0.0;
+    const double cell = grows(scene) ? scene.growth.division_length + largest_diameter(scene) : 0.0;
     const double most = std::max(longest, cell);
     if (!scene.contact.range || *scene.contact.range <= most) return;
     refuse("contact.range", text(*scene.contact.range),
@@ -383,7 +382,7 @@ void validate_contact_range(const Scene& scene, double longest) {
 
 void validate_growth(const Scene& scene, double largest_diameter) {
     const GrowthLaw& growth = scene.growth;
-    if (growth.rate == 0.0) return;
+    if (!grows(scene)) return;
     if (!(growth.division_length > largest_diameter))
         refuse(
             "growth.division_length", text(growth.division_length),
