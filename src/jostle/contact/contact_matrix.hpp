@@ -48,11 +48,11 @@ inline double gap_rate(const Contact& contact, const Rods& rods, const Velocitie
 /// Adds D gamma of a contact to what acts on its two rods.
 template <class ContactLike>
 void add_contact_force(double gamma, const ContactLike& contact, ContactForce& on_i, ContactForce& on_j) {
-    const Vec3 push = gamma * contact.normal;
-    on_i.force -= push;
-    on_i.moment -= contact.arm_i * push;
-    on_j.force += push;
-    on_j.moment += contact.arm_j * push;
+    const Vec3 force = gamma * contact.normal;
+    on_i.force -= force;
+    on_i.moment -= contact.arm_i * force;
+    on_j.force += force;
+    on_j.moment += contact.arm_j * force;
 }
 
 /// The matrix D of theory, eq. (2.2), between contact forces gamma and the rods that have contacts. Never formed.

@@ -62,8 +62,8 @@ struct EndConfiguration {
     }
     /// The pair of rods as it is there.
     PairGeometry pair(const Box& box, const PairKey& key) const {
-        const Vec3 between = centre(key.j) + box.displacement(key.image) - centre(key.i);
-        return pair_geometry(rods, key.i, key.j, between, axis(key.i), axis(key.j));
+        const Vec3 centre_separation = centre(key.j) + box.displacement(key.image) - centre(key.i);
+        return pair_geometry(rods, key.i, key.j, centre_separation, axis(key.i), axis(key.j));
     }
 };
 

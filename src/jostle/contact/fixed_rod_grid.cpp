@@ -10,8 +10,8 @@ namespace jostle {
 namespace {
 
 /// Cells along one direction, and in all.
-constexpr double most_along = 200.0;
-/// The grid is made for a longer reach than is asked for, so that it lasts.
+constexpr double max_along = 200.0;
+/// The grid is made for a longer range than is asked for, so that it lasts.
 constexpr double spare = 1.1;
 
 double distance_from_axis(const Vec3& point, const Vec3& centre, const Vec3& axis, double half) {
@@ -22,27 +22,27 @@ double distance_from_axis(const Vec3& point, const Vec3& centre, const Vec3& axi
 
 }  // namespace
 
-void FixedRodGrid::fit(const Box& box, double reach) {
+void FixedRodGrid::fit(const Box& box, double range) {
     if (!box.fixed_rods()) {
         fixed_.reset();
         return;
     }
-    if (fixed_ == box.fixed_rods() && edges_ == box.edges() && reach <= reach_) return;
+    if (fixed_ == box.fixed_rods() && edges_ == box.edges() && range <= range_) return;
     fixed_ = box.fixed_rods();
     edges_ = box.edges();
-    reach_ = spare * reach;
+    range_ = spare * range;
     list_copies(box);
 }
 
 void FixedRodGrid::list_copies(const Box& box) {
     const Rods& fixed = *fixed_;
-    // Along directions that are not periodic the grid covers all that fixed rods reach.
+    // Along directions that are not periodic the grid covers all where fixed rods lie.
     Vec3 upper = edges_;
     corner_ = {0, 0, 0};
     for (int k = 0; k < 3; ++k) {
         if (box.periodic()[static_cast<std::size_t>(k)]) continue;
         for (std::size_t f = 0; f < fixed.size(); ++f) {
-            const double beyond = 0.5 * fixed.length[f] * std::fabs(fixed.axis[f][k]) + reach_;
+            const double beyond = 0.5 * fixed.length[f] * std::fabs(fixed.axis[f][k]) + range_;
             corner_[k] = std::min(corner_[k], fixed.centre[f][k] - beyond);
             upper[k] = std::max(upper[k], fixed.centre[f][k] + beyond);
         }
@@ -50,12 +50,12 @@ void FixedRodGrid::list_copies(const Box& box) {
     std::size_t count = 1;
     for (int k = 0; k < 3; ++k) {
         const double width = upper[k] - corner_[k];
-        const double along = std::clamp(std::floor(width / (0.5 * reach_)), 1.0, most_along);
+        const double along = std::clamp(std::floor(width / (0.5 * range_)), 1.0, max_along);
         cells_[static_cast<std::size_t>(k)] = static_cast<std::size_t>(along);
         spacing_[k] = width / along;
         count *= cells_[static_cast<std::size_t>(k)];
     }
-    const double within = reach_ + 0.5 * norm(spacing_);
+    const double within = range_ + 0.5 * norm(spacing_);
     std::vector<std::vector<FixedCopy>> cells(count);
     const auto add_copy = [&](const FixedCopy& copy) {
         const Vec3& axis = fixed.axis[copy.number];
@@ -133,15 +133,15 @@ PairGeometry pair_with(const Rods& fixed, const FixedCopy& copy, const Rods& rod
 FixedRodGrid grid_of_fixed_rods(const Box& box, const Rods& rods) {
     FixedRodGrid grid;
     if (box.fixed_rods())
-        grid.fit(box, reach_from_centre(rods, *box.fixed_rods(), std::vector<double>(rods.size(), 0.0)));
+        grid.fit(box, range_from_centre(rods, *box.fixed_rods(), std::vector<double>(rods.size(), 0.0)));
     return grid;
 }
 
-double reach_from_centre(const Rods& rods, const Rods& fixed, std::span<const double> reach) {
+double range_from_centre(const Rods& rods, const Rods& fixed, std::span<const double> range) {
     double thickest = 0.0;
     for (const double diameter : fixed.diameter) thickest = std::max(thickest, diameter);
     return parallel_max(rods.size(), 0.0,
-                        [&](std::size_t i) { return 0.5 * (rods.length[i] + rods.diameter[i] + thickest) + reach[i]; });
+                        [&](std::size_t i) { return 0.5 * (rods.length[i] + rods.diameter[i] + thickest) + range[i]; });
 }
 
 }  // namespace jostle

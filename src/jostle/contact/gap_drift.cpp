@@ -32,7 +32,7 @@ GapDrift::Side GapDrift::side_of_rod(std::uint32_t row, double arm) const {
 GapDrift::Side GapDrift::side_of_fixed_rod(const Contact& contact, const Image& image) const {
     const PairGeometry pair = pair_with(*box_.fixed_rods(), copy_of(contact, image, box_), rods_, contact.j,
                                         rods_.centre[contact.j], rods_.axis[contact.j]);
-    const double along = dot(pair.between + contact.arm_j * pair.axis_j, pair.axis_i);
+    const double along = dot(pair.centre_separation + contact.arm_j * pair.axis_j, pair.axis_i);
     return {{pair.axis_i, RodMobility{0.0, 0.0, 0.0}}, std::clamp(along, -pair.half_i, pair.half_i), pair.half_i};
 }
 

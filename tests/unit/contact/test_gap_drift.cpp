@@ -114,8 +114,8 @@ TEST_CASE("the same at planes, in a sphere and in a tube, and at a fixed rod") {
     Rods rods;
     rods.push_back(0, {5.3, 7.0, 5.1}, normalised({0.4, 1, 0.3}), 2.0, 1.0);
     Contacts contacts;
-    const std::vector<double> reach{3.0};
-    append_fixed_rod_contacts(rods, pillar, reach, contacts);
+    const std::vector<double> range{3.0};
+    append_fixed_rod_contacts(rods, pillar, range, contacts);
     REQUIRE(contacts.size() == 1);
     const auto gap = [&](const Rods& at) {
         return pair_gap(pair_with(fixed, copy_of(contacts.contact[0], {}, pillar), at, 0, at.centre[0], at.axis[0]));
