@@ -35,8 +35,32 @@ void FixedRodGrid::fit(const Box& box, double range) {
 }
 
 void FixedRodGrid::list_copies(const Box& box) {
+    set_cells(box);
     const Rods& fixed = *fixed_;
-    // Along directions that are not periodic the grid covers all where fixed rods lie.
+    const double within = range_ + 0.5 * norm(spacing_);
+    std::vector<std::vector<FixedCopy>> cells(cells_[0] * cells_[1] * cells_[2]);
+    for (std::uint32_t f = 0; f < fixed.size(); ++f) {
+        std::array<std::int32_t, 3> most{};
+        for (int k = 0; k < 3; ++k)
+            if (box.periodic()[static_cast<std::size_t>(k)])
+                most[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(
+                    std::ceil((0.5 * fixed.length[f] * std::fabs(fixed.axis[f][k]) + within) / edges_[k]) + 1.0);
+        for (std::int32_t x = -most[0]; x <= most[0]; ++x)
+            for (std::int32_t y = -most[1]; y <= most[1]; ++y)
+                for (std::int32_t z = -most[2]; z <= most[2]; ++z)
+                    add_copy({f, {x, y, z}, fixed.centre[f] - box.displacement({x, y, z})}, within, cells);
+    }
+    begin_.assign(cells.size() + 1, 0);
+    in_cells_.clear();
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+        in_cells_.insert(in_cells_.end(), cells[cell].begin(), cells[cell].end());
+        begin_[cell + 1] = in_cells_.size();
+    }
+}
+
+/// Corner, spacing and number of the cells. Along directions that are not periodic they cover all where fixed rods lie.
+void FixedRodGrid::set_cells(const Box& box) {
+    const Rods& fixed = *fixed_;
     Vec3 upper = edges_;
     corner_ = {0, 0, 0};
     for (int k = 0; k < 3; ++k) {
@@ -47,57 +71,38 @@ void FixedRodGrid::list_copies(const Box& box) {
             upper[k] = std::max(upper[k], fixed.centre[f][k] + beyond);
         }
     }
-    std::size_t count = 1;
     for (int k = 0; k < 3; ++k) {
         const double width = upper[k] - corner_[k];
         const double along = std::clamp(std::floor(width / (0.5 * range_)), 1.0, max_along);
         cells_[static_cast<std::size_t>(k)] = static_cast<std::size_t>(along);
         spacing_[k] = width / along;
-        count *= cells_[static_cast<std::size_t>(k)];
     }
-    const double within = range_ + 0.5 * norm(spacing_);
-    std::vector<std::vector<FixedCopy>> cells(count);
-    const auto add_copy = [&](const FixedCopy& copy) {
-        const Vec3& axis = fixed.axis[copy.number];
-        const double half = 0.5 * fixed.length[copy.number];
-        std::array<std::size_t, 3> first{}, last{};
-        for (int k = 0; k < 3; ++k) {
-            const auto direction = static_cast<std::size_t>(k);
-            const double beyond = half * std::fabs(axis[k]) + within;
-            const double from = (copy.centre[k] - beyond - corner_[k]) / spacing_[k];
-            const double to = (copy.centre[k] + beyond - corner_[k]) / spacing_[k];
-            const auto most = static_cast<double>(cells_[direction]);
-            if (to < 0.0 || from >= most) return;
-            first[direction] = static_cast<std::size_t>(std::max(from, 0.0));
-            last[direction] = static_cast<std::size_t>(std::min(to, most - 1.0));
-        }
-        for (std::size_t x = first[0]; x <= last[0]; ++x)
-            for (std::size_t y = first[1]; y <= last[1]; ++y)
-                for (std::size_t z = first[2]; z <= last[2]; ++z) {
-                    const Vec3 middle = corner_ + Vec3{(static_cast<double>(x) + 0.5) * spacing_.x,
-                                                       (static_cast<double>(y) + 0.5) * spacing_.y,
-                                                       (static_cast<double>(z) + 0.5) * spacing_.z};
-                    if (distance_from_axis(middle, copy.centre, axis, half) <= within)
-                        cells[(x * cells_[1] + y) * cells_[2] + z].push_back(copy);
-                }
-    };
-    for (std::uint32_t f = 0; f < fixed.size(); ++f) {
-        std::array<std::int32_t, 3> most{};
-        for (int k = 0; k < 3; ++k)
-            if (box.periodic()[static_cast<std::size_t>(k)])
-                most[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(
-                    std::ceil((0.5 * fixed.length[f] * std::fabs(fixed.axis[f][k]) + within) / edges_[k]) + 1.0);
-        for (std::int32_t x = -most[0]; x <= most[0]; ++x)
-            for (std::int32_t y = -most[1]; y <= most[1]; ++y)
-                for (std::int32_t z = -most[2]; z <= most[2]; ++z)
-                    add_copy({f, {x, y, z}, fixed.centre[f] - box.displacement({x, y, z})});
+}
+
+/// Adds a copy to the cells whose middles its axis comes to within this distance.
+void FixedRodGrid::add_copy(const FixedCopy& copy, double within, std::vector<std::vector<FixedCopy>>& cells) const {
+    const Vec3& axis = fixed_->axis[copy.number];
+    const double half = 0.5 * fixed_->length[copy.number];
+    std::array<std::size_t, 3> first{}, last{};
+    for (int k = 0; k < 3; ++k) {
+        const auto direction = static_cast<std::size_t>(k);
+        const double beyond = half * std::fabs(axis[k]) + within;
+        const double from = (copy.centre[k] - beyond - corner_[k]) / spacing_[k];
+        const double to = (copy.centre[k] + beyond - corner_[k]) / spacing_[k];
+        const auto most = static_cast<double>(cells_[direction]);
+        if (to < 0.0 || from >= most) return;
+        first[direction] = static_cast<std::size_t>(std::max(from, 0.0));
+        last[direction] = static_cast<std::size_t>(std::min(to, most - 1.0));
     }
-    begin_.assign(count + 1, 0);
-    in_cells_.clear();
-    for (std::size_t cell = 0; cell < count; ++cell) {
-        in_cells_.insert(in_cells_.end(), cells[cell].begin(), cells[cell].end());
-        begin_[cell + 1] = in_cells_.size();
-    }
+    for (std::size_t x = first[0]; x <= last[0]; ++x)
+        for (std::size_t y = first[1]; y <= last[1]; ++y)
+            for (std::size_t z = first[2]; z <= last[2]; ++z) {
+                const Vec3 middle = corner_ + Vec3{(static_cast<double>(x) + 0.5) * spacing_.x,
+                                                   (static_cast<double>(y) + 0.5) * spacing_.y,
+                                                   (static_cast<double>(z) + 0.5) * spacing_.z};
+                if (distance_from_axis(middle, copy.centre, axis, half) <= within)
+                    cells[(x * cells_[1] + y) * cells_[2] + z].push_back(copy);
+            }
 }
 
 std::span<const FixedCopy> FixedRodGrid::near(const Vec3& point) const {

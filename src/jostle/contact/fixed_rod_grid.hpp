@@ -57,6 +57,8 @@ public:
 
 private:
     void list_copies(const Box& box);
+    void set_cells(const Box& box);
+    void add_copy(const FixedCopy& copy, double within, std::vector<std::vector<FixedCopy>>& cells) const;
 
     std::shared_ptr<const Rods> fixed_;
     Vec3 edges_{};
