@@ -76,7 +76,7 @@ std::string units_text(const Scene& scene) {
     std::string text = fmt::format("length {}, ", unit(dimension::length));
     if (scene.fluid.kT == 1.0) return text + fmt::format("energy kT, time {}", unit(dimension::time));
     text += fmt::format("viscosity {}, time time_unit", unit(dimension::viscosity));
-    if (scene.growth.rate > 0.0) text += " = " + with_unit(1.0, scene, dimension::time);
+    if (grows(scene)) text += " = " + with_unit(1.0, scene, dimension::time);
     return text;
 }
 
@@ -114,7 +114,8 @@ void print_swimming(const Scene& scene, const MobilityOperator& mobility, const 
 
 std::string step_error_text(const Rods& rods, const Box& box, double rms_step) {
     const StepError error = known_step_error(rods, box);
-    return fmt::format("at most {:.2g} %, as was measured of {}", 100.0 * largest_step_error(rms_step, error), error.states);
+    return fmt::format("at most {:.2g} %, as was measured of {}", 100.0 * largest_step_error(rms_step, error),
+                       error.states);
 }
 
 void print_motion(const Scene& scene, const MobilityOperator& mobility, const Box& box, const Rods& rods, double dt) {
@@ -186,7 +187,7 @@ void print_schedule(const Scene& scene, const Box& box, double rods_volume) {
 void print_clocks(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, double phi) {
     constexpr double margin = 1.25;  // over what is needed at the least
     const FreeClocks clocks = free_clocks(scene, mobility, rods);
-    if (scene.growth.rate > 0.0 || (clocks.rotation == 0.0 && clocks.diffusion == 0.0)) return;
+    if (grows(scene) || (clocks.rotation == 0.0 && clocks.diffusion == 0.0)) return;
     const double production = scene.time.production;
     const double slowdown = rods_are_alike(scene) && !rods_are_given(scene)
                                 ? crowding_slowdown(phi, rods.length[0] / rods.diameter[0], dimensions_of(scene))
@@ -240,7 +241,7 @@ struct PopulationGrowth {
 
 PopulationGrowth population_growth(const Scene& scene, double time) {
     const GrowthLaw& growth = scene.growth;
-    if (growth.rate == 0.0) return {};
+    if (!grows(scene)) return {};
     const double doubling = 0.5 * (growth.division_length + scene.rods.diameter) / growth.rate;
     const double exponent = (std::numbers::ln2 / doubling - growth.death_rate) * time;
     print("doubling time", with_unit(doubling, scene, dimension::time));
@@ -257,10 +258,10 @@ void print_cost(const Scene& scene, const Population& population, const Box& box
     const double steps = in_rows(expected_equilibration(scene)) + std::max(every, in_rows(scene.time.production));
     const PopulationGrowth growth = population_growth(scene, steps * dt);
     const double count = population.count * growth.end, filled = phi * growth.end;
-    const bool colony = scene.growth.rate > 0.0 && !box.is_periodic();  // as dense as cells lie, whatever the box
+    const bool colony = grows(scene) && !box.is_periodic();  // as dense as cells lie, whatever the box
     const double densest =
         colony ? crowded(box.dimensions()) : std::max(phi, std::min(filled, crowded(box.dimensions())));
-    if (scene.growth.rate > 0.0) {
+    if (grows(scene)) {
         const bool too_many = !(count <= max_rods);
         print("N in the end, about",
               too_many ? "more than any run can hold: end it earlier" : fmt::format("{:.3g}", count));

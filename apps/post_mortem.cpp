@@ -7,6 +7,7 @@
 
 #include "jostle/disk/durable_file.hpp"
 #include "jostle/scene/scene_box.hpp"
+#include "jostle/scene/scene_motion.hpp"
 #include "sealed_json.hpp"
 
 using namespace jostle;
@@ -43,7 +44,7 @@ Json worst_contacts(const Simulation& simulation, Rank&& rank) {
 
 std::string advice(const StepReport& report, const Scene& scene, const Simulation& simulation) {
     const double filled = total_volume(simulation.rods(), simulation.box().dimensions()) / simulation.box().volume();
-    if (scene.growth.rate > 0.0 && simulation.box().is_periodic() && filled > crowded(dimensions_of(scene)))
+    if (grows(scene) && simulation.box().is_periodic() && filled > crowded(dimensions_of(scene)))
         return fmt::format(
             "  cells fill {:.0f} % of the box: end the run earlier, or give them a larger box or a "
             "growth.stall_force\n",

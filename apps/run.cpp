@@ -15,6 +15,7 @@
 #include "jostle/disk/durable_file.hpp"
 #include "jostle/measurement/h5md_attributes.hpp"
 #include "jostle/scene/rod_size.hpp"
+#include "jostle/scene/scene_motion.hpp"
 #include "jostle/setup/largest_overlap.hpp"
 #include "jostle/setup/step_failure.hpp"
 #include "post_mortem.hpp"
@@ -88,7 +89,7 @@ ExitCode Run::go() {
             return give_up(report, *failure, advice(report, scene_, simulation_));
         const Due due = measurement_.add(report, simulation_);
         require_same(report, due);
-        if (scene_.growth.rate > 0.0) files_->append_lineage(simulation_);
+        if (grows(scene_)) files_->append_lineage(simulation_);
         if (simulation_.rods_in_all() > 0) {
             write_what_is_due(due, now.checkpoint_is_overdue);
             if (progress_.is_due()) show_progress();
@@ -279,7 +280,7 @@ ExitCode Run::finish() {
     const std::string text = sealed_json(summary);
     replace_file(directory_->file("summary.json"), text);
     record("done");
-    const bool known = summary["equilibrated"].get<bool>() || scene_.growth.rate > 0.0;
+    const bool known = summary["equilibrated"].get<bool>() || grows(scene_);
     show_progress(known ? "" : summary["equilibrium"]["in_words"].get<std::string>());
     if (options_.json)
         std::fputs(text.c_str(), stdout);

@@ -9,6 +9,7 @@
 #include "jostle/measurement/frame_steps.hpp"
 #include "jostle/measurement/series_columns.hpp"
 #include "jostle/rods/space_filling_order.hpp"
+#include "jostle/scene/scene_motion.hpp"
 #include "jostle/stress/stress_per_rod.hpp"
 
 using namespace jostle;
@@ -29,7 +30,7 @@ enum : std::size_t { contacts_table, lineage_table, field_table };
 
 std::array<SideTable, 3> side_tables(const Scene& scene) {
     return {{{{"contacts", contact_columns(scene).about()}, scene.output.contacts},
-             {{"lineage", lineage_columns(scene).about()}, scene.growth.rate > 0.0},
+             {{"lineage", lineage_columns(scene).about()}, grows(scene)},
              {{"field", field_columns(scene).about()}, scene.output.field_every > 0}}};
 }
 

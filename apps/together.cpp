@@ -6,6 +6,7 @@
 #include "jostle/error/input_error.hpp"
 #include "jostle/run_files/version.hpp"
 #include "jostle/scene/scene_flow.hpp"
+#include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/scene_walls.hpp"
 #include "jostle/scene/schedule.hpp"
 #include "run_record.hpp"
@@ -37,7 +38,7 @@ void Together::require_ready(const Scene& scene) const {
                               .problem = std::string(what) + " not ready for several ranks",
                               .suggestion = "Start the run without a launcher, or without the key"});
     };
-    refuse_if(scene.growth.rate > 0.0, "growth.rate", "cells that grow are");
+    refuse_if(grows(scene), "growth.rate", "cells that grow are");
     refuse_if(!scene.springs.file.empty(), "springs.file", "springs are");
     refuse_if(has_schedule(scene), "schedule", "schedules are");
     refuse_if(scene.pressure.external.has_value(), "pressure.external", "a pressure that is given is");

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "jostle/contact/find_contacts.hpp"
-#include "jostle/contact/segment_distance.hpp"
 #include "jostle/contact/reflection.hpp"
+#include "jostle/contact/segment_distance.hpp"
 #include "jostle/contact_problem/block_gauss_seidel.hpp"
 #include "jostle/math/random.hpp"
 #include "jostle/motion/brownian_motion.hpp"
@@ -145,8 +145,8 @@ double bytes_of_sweep(const PosedProblem& posed) {
 void sweep_over_all(benchmark::State& state, const Crowd& crowd, std::size_t bodies) {
     const PosedProblem posed(crowd, bodies);
     const std::vector<double> start(posed.problem.matrix().size(), 0.0);
-    BlockGaussSeidel<float> sweeper(posed.problem, 1e-5, start);
-    for (auto unused : state) benchmark::DoNotOptimize(sweeper.sweep(1.1, SweepOver::all));
+    BlockGaussSeidel<float> gauss_seidel(posed.problem, 1e-5, start);
+    for (auto unused : state) benchmark::DoNotOptimize(gauss_seidel.sweep(1.1, SweepOver::all));
     count_items(state, posed.problem.matrix().size());
     state.counters["bytes_each"] = bytes_of_sweep(posed);
 }

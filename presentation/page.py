@@ -175,7 +175,7 @@ def stress_rows(run, name):
 
 
 def checks(run):
-    """What is measured beside what equilibrium has, where a run is in equilibrium."""
+    """What is measured beside the value in equilibrium, where a run is in equilibrium."""
     rows = [check_row(words, run.summary["checks"][name]) for name, words in CHECKS.items() if name in run.summary.get("checks", {})]
     return "<h2>Checks</h2>\n" + table(("Ratio", "measured", "standard error", "in equilibrium", ""), rows) if rows else ""
 

@@ -47,11 +47,11 @@ def _checks(run):
         state = JUDGED[check.get("agree")]
         ratio = f"{measured:.4g}" + ("" if error is None else f" ± {error:.2g}")
         yield (state, words[list(JUDGED.values()).index(state)],
-               f"along over across the director {ratio}; equilibrium has {expected_range(check)}")
+               f"ratio along/across the director, measured: {ratio}; in equilibrium: {expected_range(check)}")
 
 
 def expected_range(check):
-    """The ratio that equilibrium has, or from where to where it may be."""
+    """The ratio in equilibrium, or from where to where it may be."""
     ends = [check["in_equilibrium"][end] for end in ("from", "to")]
     return "–" if None in ends else " to ".join(dict.fromkeys(f"{end:.4g}" for end in ends))
 

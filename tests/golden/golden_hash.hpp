@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <numeric>
 #include <string_view>
 #include <vector>
 
@@ -37,15 +35,14 @@ private:
     RunningChecksum checksum_;
 };
 
-/// The bits of a simulation's state, rods in the order of their ids.
+/// The bits of a simulation's state, its rods in the order of their ids.
 inline std::uint64_t state_hash(const Simulation& simulation) {
-    const Rods& rods = simulation.rods();
-    std::vector<std::size_t> rows(rods.size());
-    std::iota(rows.begin(), rows.end(), std::size_t{0});
-    std::sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) { return rods.id[a] < rods.id[b]; });
+    const State state = in_order_of_ids(simulation.state());
+    const Rods& rods = state.rods;
     Hash hash;
-    hash.add(simulation.clock().step, simulation.clock().time);
-    for (const std::size_t i : rows) {
+    hash.add(state.clock.step, state.clock.time, state.box.edges(), state.box.offset());
+    if (state.box_force) hash.add(*state.box_force);
+    for (std::size_t i = 0; i < rods.size(); ++i) {
         hash.add(rods.id[i], rods.centre[i], rods.axis[i], rods.length[i], rods.diameter[i]);
         for (const std::int32_t crossed : rods.image[i]) hash.add(crossed);
         if (!rods.speed.empty()) hash.add(rods.speed[i]);
@@ -53,10 +50,12 @@ inline std::uint64_t state_hash(const Simulation& simulation) {
         const CellCycle& cycle = rods.cycle[i];
         hash.add(cycle.growth_rate, cycle.division_at, cycle.birth_step, cycle.divisions, cycle.share);
     }
-    for (const Spring& spring : simulation.state().springs) {
+    for (const Spring& spring : state.springs) {
         hash.add(spring.rod_1, spring.rod_2, spring.s_1, spring.s_2);
         for (const std::int32_t crossed : spring.image) hash.add(crossed);
     }
+    for (const PreviousForce& force : state.previous_forces)
+        hash.add(force.i, force.j, force.feature, force.upper, force.gamma);
     return hash.value();
 }
 

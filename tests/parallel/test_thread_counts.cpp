@@ -15,7 +15,7 @@
 #include "jostle/scene/scene_box.hpp"
 #include "jostle/setup/assemble.hpp"
 #include "jostle/setup/monte_carlo.hpp"
-#include "jostle/setup/push_apart.hpp"
+#include "jostle/setup/remove_overlaps.hpp"
 #include "jostle/setup/scattered_rods.hpp"
 #include "jostle/setup/start.hpp"
 
@@ -151,8 +151,8 @@ Scene crowd(std::uint64_t count, double length, double volume_fraction) {
 /// Not annealed, which would take longer than the steps.
 Rods pushed_apart(const Scene& scene) {
     Rods rods = scattered_rods(scene, cube_of(scene), std::nullopt);
-    const DragMobility mobility(pushing_drag(true));
-    REQUIRE(push_apart(rods, cube_of(scene), mobility).apart);
+    const DragMobility mobility(overlap_removal_drag(true));
+    REQUIRE(remove_overlaps(rods, cube_of(scene), mobility).apart);
     return rods;
 }
 

@@ -27,6 +27,7 @@ def build(tmp_path_factory):
     folder = tmp_path_factory.mktemp("outside")
     (folder / "guide.cpp").write_text(block_of_the_guide("int main"))
     (folder / "constant_force.hpp").write_text(block_of_the_guide("class ConstantForce"))
+    (folder / "mean_square_along_x.hpp").write_text(block_of_the_guide("mean_square_along_x"))
     (folder / "free_draining.hpp").write_text(block_of_the_guide("free_draining()"))
     succeed("cmake", "--install", os.environ["JOSTLE_BUILD"], "--prefix", folder / "prefix")
     succeed("cmake", "-S", PROJECT, "-B", folder / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
@@ -91,6 +92,19 @@ def test_motion_and_mobility_of_the_guide(build):
     sphere, rod, free_sphere, free_rod = [float(word) for word in succeed(build / "sediment").split()]
     assert np.allclose([sphere, free_sphere, free_rod], np.array([1, 1, 0.5]) / np.pi, rtol=1e-12)
     assert 0.5 / np.pi < rod < 1 / np.pi
+
+
+def test_observable_of_the_guide(build, tmp_path):
+    """It is what Python finds from the axes, step by step; and so is its mean."""
+    (tmp_path / "scene.toml").write_text(RODS)
+    printed = [float(word) for word in succeed(build / "observable", tmp_path / "scene.toml").split()]
+    simulation = jostle.Simulation(jostle.Scene.from_toml(RODS))
+    expected = []
+    for _ in range(50):
+        simulation.step()
+        expected.append((simulation.rods.axis[:, 0] ** 2).mean())
+    assert np.allclose(printed, [*expected, np.mean(expected)], rtol=1e-12)
+    assert np.ptp(expected) > 0
 
 
 def test_program_of_the_guide(build, tmp_path):

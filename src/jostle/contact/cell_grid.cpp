@@ -14,7 +14,7 @@ constexpr double largest_cells_per_rod = 4.0;
 /// So much of the rods, at either end of an open direction, may lie in the outermost cells where there are too many.
 constexpr double outliers = 0.02;
 /// Along a direction; and to either side of a cell. Sums and products of both stay whole numbers.
-constexpr double most_cells = 1e6, widest_reach = 1 << 30;
+constexpr double max_cells = 1e6, max_width = 1 << 30;
 
 /// The whole number nearest to `value` within bounds: a plain cast has no meaning beyond them.
 int whole(double value, double lowest, double highest) {
@@ -53,9 +53,9 @@ CellGrid::CellGrid(const Rods& rods, const Box& box, double range) : periodic_(b
     if (cells() > allowed) edge *= std::cbrt(cells() / allowed);
     for (int k = 0; k < 3; ++k) {
         const auto direction = static_cast<std::size_t>(k);
-        count_[direction] = whole(std::floor(extent[k] / edge), 1.0, most_cells);
+        count_[direction] = whole(std::floor(extent[k] / edge), 1.0, max_cells);
         cells_per_length_[k] = count_[direction] / extent[k];
-        width_[direction] = whole(std::ceil(range * cells_per_length_[k]), 0.0, widest_reach);
+        width_[direction] = whole(std::ceil(range * cells_per_length_[k]), 0.0, max_width);
     }
     offset_ = box.offset() * cells_per_length_.x;
 }
@@ -71,7 +71,7 @@ std::size_t CellGrid::cell_of(const Vec3& centre) const {
     return (cell[2] * static_cast<std::size_t>(count_[1]) + cell[1]) * static_cast<std::size_t>(count_[0]) + cell[0];
 }
 
-std::array<int, 3> CellGrid::place_of(std::size_t cell) const {
+std::array<int, 3> CellGrid::indices_of(std::size_t cell) const {
     const auto nx = static_cast<std::size_t>(count_[0]), ny = static_cast<std::size_t>(count_[1]);
     return {static_cast<int>(cell % nx), static_cast<int>(cell / nx % ny), static_cast<int>(cell / (nx * ny))};
 }

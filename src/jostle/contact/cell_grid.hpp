@@ -26,11 +26,11 @@ public:
     std::size_t cell_of(const Vec3& centre) const;
 
     /// Where a cell stands along each direction.
-    std::array<int, 3> place_of(std::size_t cell) const;
+    std::array<int, 3> indices_of(std::size_t cell) const;
 
     int cells_along(std::size_t direction) const { return count_[direction]; }
     /// So many cells to each side does `visit` reach.
-    int reach_along(std::size_t direction) const { return width_[direction]; }
+    int range_along(std::size_t direction) const { return width_[direction]; }
 
     /// The images that `visit` names reach so far to both sides of 0.
     Image farthest_image() const {
@@ -46,7 +46,7 @@ public:
     /// centre within `range` of one in `home`; each (cell, image) once, (home, 0) too.
     template <class Found>
     void visit(std::size_t home, Found&& found) const {
-        const auto place = place_of(home);
+        const auto place = indices_of(home);
         for (int z = first(place, 2); z <= last(place, 2); ++z)
             for (int y = first(place, 1); y <= last(place, 1); ++y) {
                 const int image_y = image_of(y, 1), image_z = image_of(z, 2);

@@ -262,7 +262,7 @@ std::vector<PairKey> CollisionSearch::violated_pairs(const StepGeometry& step, c
     const double limit = step.ranges.displacement_limit;
     const auto within_limit = [&](std::uint32_t row) { return farthest_[row] <= limit; };
     std::vector<std::vector<PairKey>> found(in_block_.size());
-    const auto look = [&](std::size_t block, const PairKey& key) {
+    const auto search = [&](std::size_t block, const PairKey& key) {
         if (!thorough && !(within_limit(key.i) && within_limit(key.j))) return;
         if (is_violated(key, step, contacts, end)) found[block].push_back(key);
     };
@@ -274,7 +274,7 @@ std::vector<PairKey> CollisionSearch::violated_pairs(const StepGeometry& step, c
                 const std::uint32_t j = neighbours_.partner(pair_number(block, pair.in_block));
                 if (pair.slack >= farthest_[pair.i] + farthest_[j]) continue;
                 if (may_meet(pair, displacement_[pair.i], displacement_[j]))
-                    look(block, key_of(block, pair.i, pair.in_block, step.rods));
+                    search(block, key_of(block, pair.i, pair.in_block, step.rods));
             }
         });
     }
@@ -290,7 +290,7 @@ std::vector<PairKey> CollisionSearch::violated_pairs(const StepGeometry& step, c
         parallel_for_parts(neighbours_.block_count(), [&](std::size_t block) {
             neighbours_.for_close_pairs(block, [&](std::uint32_t i, std::size_t pair) {
                 if (!neighbours_.was_close(i, pair))
-                    look(block, in_order_of_ids(neighbours_.key(i, pair), step.rods.id));
+                    search(block, in_order_of_ids(neighbours_.key(i, pair), step.rods.id));
             });
         });
     }

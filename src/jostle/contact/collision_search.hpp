@@ -110,8 +110,8 @@ private:
     void search_block(std::size_t block, const StepGeometry& step, Found& found);
     void narrow_phase(std::uint32_t row, const PairKey& key, std::uint16_t in_block, const StepGeometry& step,
                       Found& found) const;
-    void append(const PairKey& key, const PairGeometry& before, const NearestPoints& nearest,
-                const PairGeometry& after, const StepGeometry& step, Contacts& contacts) const;
+    void append(const PairKey& key, const PairGeometry& before, const NearestPoints& nearest, const PairGeometry& after,
+                const StepGeometry& step, Contacts& contacts) const;
     static bool may_meet(const InactivePair& pair, const Displacement& i, const Displacement& j);
     bool is_contact(const PairKey& key, const Contacts& contacts) const;
     bool is_violated(const PairKey& key, const StepGeometry& step, const Contacts& contacts,

@@ -71,9 +71,9 @@ void ContactMatrix::apply(std::span<const double> gamma, std::span<ContactForce>
             const std::uint32_t side = incidence_[entry];
             const Contact& contact = contacts_.contact[side / 2];
             const bool is_j = (side % 2) == 1;
-            const Vec3 push = (is_j ? gamma[side / 2] : -gamma[side / 2]) * contact.normal;
-            sum.force += push;
-            sum.moment += (is_j ? contact.arm_j : contact.arm_i) * push;
+            const Vec3 force = (is_j ? gamma[side / 2] : -gamma[side / 2]) * contact.normal;
+            sum.force += force;
+            sum.moment += (is_j ? contact.arm_j : contact.arm_i) * force;
         }
         forces[k] = sum;
     });

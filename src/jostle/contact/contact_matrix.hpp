@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "jostle/contact/contacts.hpp"
+#include "jostle/rods/forces.hpp"
+#include "jostle/rods/velocities.hpp"
 
 namespace jostle {
 
@@ -19,20 +21,38 @@ struct ContactVelocity {
     Vec3 centre, axis_rate;
 };
 
+/// Makes entry k of `forces` what this contact force is to a rod with this axis.
+inline void set_force(const ContactForce& force, const Vec3& axis, std::size_t k, Forces& forces) {
+    forces.force[k] = force.force;
+    forces.torque[k] = cross(axis, force.moment);
+}
+/// What entry k of `velocities` is to the contacts of a rod with this axis.
+inline ContactVelocity contact_velocity(const Velocities& velocities, std::size_t k, const Vec3& axis) {
+    return {velocities.linear[k], cross(velocities.angular[k], axis)};
+}
+
 /// How fast the gap of a contact (or what else has its normal and arms) opens, D^T U.
 template <class ContactLike>
 double gap_rate(const ContactLike& contact, const ContactVelocity& i, const ContactVelocity& j) {
     return dot(contact.normal, j.centre + contact.arm_j * j.axis_rate - i.centre - contact.arm_i * i.axis_rate);
 }
 
+/// The same where rods (N) move with these velocities; fixed bodies stay.
+inline double gap_rate(const Contact& contact, const Rods& rods, const Velocities& velocities) {
+    const auto velocity = [&](std::uint32_t body) {
+        return is_fixed(body) ? ContactVelocity{} : contact_velocity(velocities, body, rods.axis[body]);
+    };
+    return gap_rate(contact, velocity(contact.i), velocity(contact.j));
+}
+
 /// Adds D gamma of a contact to what acts on its two rods.
 template <class ContactLike>
 void add_contact_force(double gamma, const ContactLike& contact, ContactForce& on_i, ContactForce& on_j) {
-    const Vec3 push = gamma * contact.normal;
-    on_i.force -= push;
-    on_i.moment -= contact.arm_i * push;
-    on_j.force += push;
-    on_j.moment += contact.arm_j * push;
+    const Vec3 force = gamma * contact.normal;
+    on_i.force -= force;
+    on_i.moment -= contact.arm_i * force;
+    on_j.force += force;
+    on_j.moment += contact.arm_j * force;
 }
 
 /// The matrix D of theory, eq. (2.2), between contact forces gamma and the rods that have contacts. Never formed.

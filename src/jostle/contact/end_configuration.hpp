@@ -2,12 +2,12 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
 #include "jostle/contact/contact_matrix.hpp"
 #include "jostle/contact/pair_contacts.hpp"
-#include "jostle/math/rotation.hpp"
 #include "jostle/rods/configuration.hpp"
 #include "jostle/rods/velocities.hpp"
 
@@ -21,28 +21,34 @@ struct Displacement {
     float inaccuracy = 0.0F;  ///< of centre and end together, at most
 };
 
-/// Centre and axis of a rod at the end of a step, q + dt (U_known + U_C), the axis by the exponential map (theory 2.4).
+/// Centre and axis of a rod at the end of a step, by U_known + U_C.
 inline Vec3 centre_at_end(const Rods& rods, std::uint32_t row, const Velocities& known,
                           const ContactVelocity& by_contacts, double time_step) {
-    return rods.centre[row] + time_step * (known.linear[row] + by_contacts.centre);
+    return centre_after(rods.centre[row], known.linear[row] + by_contacts.centre, time_step);
 }
 inline Vec3 axis_at_end(const Rods& rods, std::uint32_t row, const Velocities& known,
                         const ContactVelocity& by_contacts, double time_step) {
     const Vec3& axis = rods.axis[row];
-    return rotated(axis, time_step * (known.angular[row] + cross(axis, by_contacts.axis_rate)));
+    return axis_after(axis, known.angular[row] + cross(axis, by_contacts.axis_rate), time_step);
 }
 
-/// Rods at the end of a step in which these contact forces act: those with contacts where the
-/// forces take them, the others where the known motion does. Worked out when asked for: few are. Holds references.
+/// Rods at the end of a step in which contact forces act: those with contacts where the forces take them, the others
+/// where the known motion does. Worked out when asked for: few are. Holds references, and spans of the contact matrix,
+/// which last until that is extended.
 struct EndConfiguration {
     const Rods& rods;                  ///< as the step begins
     const Velocities& known_velocity;  ///< (N)
     const Configuration& known;        ///< (N) after the known motion
     double time_step;
-    std::span<const std::uint32_t> local_index;  ///< (N) a rod's number among those with contacts, or no_local_index
-    std::span<const std::uint32_t> rows;         ///< (n) of the rods with contacts
-    std::span<const ContactVelocity> velocity;   ///< (n) theirs by contact forces
-    std::span<const Displacement> displacement;  ///< (n) what the forces add to their known motion
+    std::span<const std::uint32_t> local_index{};  ///< (N) a rod's number among those with contacts, or no_local_index
+    std::span<const std::uint32_t> rows{};         ///< (n) of the rods with contacts
+    std::vector<ContactVelocity> velocity{};       ///< (n) theirs by contact forces
+    std::vector<Displacement> displacement{};      ///< (n) what the forces add to their known motion
+
+    /// Makes it that of forces by which rods have the sum of these velocities, each (n) as the matrix numbers rods, or
+    /// shorter, if that has grown since.
+    void set_velocities(const ContactMatrix& contact_matrix,
+                        std::initializer_list<std::span<const ContactVelocity>> parts);
 
     Vec3 centre(std::uint32_t row) const {
         const std::uint32_t local = local_index[row];
@@ -56,8 +62,8 @@ struct EndConfiguration {
     }
     /// The pair of rods as it is there.
     PairGeometry pair(const Box& box, const PairKey& key) const {
-        const Vec3 between = centre(key.j) + box.displacement(key.image) - centre(key.i);
-        return pair_geometry(rods, key.i, key.j, between, axis(key.i), axis(key.j));
+        const Vec3 centre_separation = centre(key.j) + box.displacement(key.image) - centre(key.i);
+        return pair_geometry(rods, key.i, key.j, centre_separation, axis(key.i), axis(key.j));
     }
 };
 

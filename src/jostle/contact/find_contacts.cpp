@@ -13,7 +13,7 @@ double find_contacts(const Rods& rods, const Box& box, const NeighbourList& neig
                      Contacts& contacts) {
     std::vector<Contacts> blocks(neighbours.block_count());
     std::vector<double> overlaps(blocks.size(), 0.0);
-    const auto look_at = [&](std::size_t block, const PairKey& key) {
+    const auto narrow_phase_of = [&](std::size_t block, const PairKey& key) {
         const auto& [i, j, image] = key;
         const PairGeometry geometry = pair_geometry(rods, i, j, box.displacement(image), rods.centre, rods.axis);
         const double range = ranges[i] + ranges[j];
@@ -25,7 +25,7 @@ double find_contacts(const Rods& rods, const Box& box, const NeighbourList& neig
     };
     parallel_for_parts(blocks.size(), [&](std::size_t block) {
         neighbours.for_close_pairs(block, [&](std::uint32_t i, std::size_t pair) {
-            look_at(block, in_order_of_ids(neighbours.key(i, pair), rods.id));
+            narrow_phase_of(block, in_order_of_ids(neighbours.key(i, pair), rods.id));
         });
     });
     contacts.clear();

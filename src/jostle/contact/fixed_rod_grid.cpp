@@ -10,8 +10,8 @@ namespace jostle {
 namespace {
 
 /// Cells along one direction, and in all.
-constexpr double most_along = 200.0;
-/// The grid is made for a longer reach than is asked for, so that it lasts.
+constexpr double max_along = 200.0;
+/// The grid is made for a longer range than is asked for, so that it lasts.
 constexpr double spare = 1.1;
 
 double distance_from_axis(const Vec3& point, const Vec3& centre, const Vec3& axis, double half) {
@@ -22,65 +22,23 @@ double distance_from_axis(const Vec3& point, const Vec3& centre, const Vec3& axi
 
 }  // namespace
 
-void FixedRodGrid::fit(const Box& box, double reach) {
+void FixedRodGrid::fit(const Box& box, double range) {
     if (!box.fixed_rods()) {
         fixed_.reset();
         return;
     }
-    if (fixed_ == box.fixed_rods() && edges_ == box.edges() && reach <= reach_) return;
+    if (fixed_ == box.fixed_rods() && edges_ == box.edges() && range <= range_) return;
     fixed_ = box.fixed_rods();
     edges_ = box.edges();
-    reach_ = spare * reach;
+    range_ = spare * range;
     list_copies(box);
 }
 
 void FixedRodGrid::list_copies(const Box& box) {
+    set_cells(box);
     const Rods& fixed = *fixed_;
-    // Along directions that are not periodic the grid covers all that fixed rods reach.
-    Vec3 upper = edges_;
-    corner_ = {0, 0, 0};
-    for (int k = 0; k < 3; ++k) {
-        if (box.periodic()[static_cast<std::size_t>(k)]) continue;
-        for (std::size_t f = 0; f < fixed.size(); ++f) {
-            const double beyond = 0.5 * fixed.length[f] * std::fabs(fixed.axis[f][k]) + reach_;
-            corner_[k] = std::min(corner_[k], fixed.centre[f][k] - beyond);
-            upper[k] = std::max(upper[k], fixed.centre[f][k] + beyond);
-        }
-    }
-    std::size_t count = 1;
-    for (int k = 0; k < 3; ++k) {
-        const double width = upper[k] - corner_[k];
-        const double along = std::clamp(std::floor(width / (0.5 * reach_)), 1.0, most_along);
-        cells_[static_cast<std::size_t>(k)] = static_cast<std::size_t>(along);
-        spacing_[k] = width / along;
-        count *= cells_[static_cast<std::size_t>(k)];
-    }
-    const double within = reach_ + 0.5 * norm(spacing_);
-    std::vector<std::vector<FixedCopy>> cells(count);
-    const auto add_copy = [&](const FixedCopy& copy) {
-        const Vec3& axis = fixed.axis[copy.number];
-        const double half = 0.5 * fixed.length[copy.number];
-        std::array<std::size_t, 3> first{}, last{};
-        for (int k = 0; k < 3; ++k) {
-            const auto direction = static_cast<std::size_t>(k);
-            const double beyond = half * std::fabs(axis[k]) + within;
-            const double from = (copy.centre[k] - beyond - corner_[k]) / spacing_[k];
-            const double to = (copy.centre[k] + beyond - corner_[k]) / spacing_[k];
-            const auto most = static_cast<double>(cells_[direction]);
-            if (to < 0.0 || from >= most) return;
-            first[direction] = static_cast<std::size_t>(std::max(from, 0.0));
-            last[direction] = static_cast<std::size_t>(std::min(to, most - 1.0));
-        }
-        for (std::size_t x = first[0]; x <= last[0]; ++x)
-            for (std::size_t y = first[1]; y <= last[1]; ++y)
-                for (std::size_t z = first[2]; z <= last[2]; ++z) {
-                    const Vec3 middle = corner_ + Vec3{(static_cast<double>(x) + 0.5) * spacing_.x,
-                                                       (static_cast<double>(y) + 0.5) * spacing_.y,
-                                                       (static_cast<double>(z) + 0.5) * spacing_.z};
-                    if (distance_from_axis(middle, copy.centre, axis, half) <= within)
-                        cells[(x * cells_[1] + y) * cells_[2] + z].push_back(copy);
-                }
-    };
+    const double within = range_ + 0.5 * norm(spacing_);
+    std::vector<std::vector<FixedCopy>> cells(cells_[0] * cells_[1] * cells_[2]);
     for (std::uint32_t f = 0; f < fixed.size(); ++f) {
         std::array<std::int32_t, 3> most{};
         for (int k = 0; k < 3; ++k)
@@ -90,14 +48,61 @@ void FixedRodGrid::list_copies(const Box& box) {
         for (std::int32_t x = -most[0]; x <= most[0]; ++x)
             for (std::int32_t y = -most[1]; y <= most[1]; ++y)
                 for (std::int32_t z = -most[2]; z <= most[2]; ++z)
-                    add_copy({f, {x, y, z}, fixed.centre[f] - box.displacement({x, y, z})});
+                    add_copy({f, {x, y, z}, fixed.centre[f] - box.displacement({x, y, z})}, within, cells);
     }
-    begin_.assign(count + 1, 0);
+    begin_.assign(cells.size() + 1, 0);
     in_cells_.clear();
-    for (std::size_t cell = 0; cell < count; ++cell) {
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
         in_cells_.insert(in_cells_.end(), cells[cell].begin(), cells[cell].end());
         begin_[cell + 1] = in_cells_.size();
     }
+}
+
+/// Corner, spacing and number of the cells. Along directions that are not periodic they cover all where fixed rods lie.
+void FixedRodGrid::set_cells(const Box& box) {
+    const Rods& fixed = *fixed_;
+    Vec3 upper = edges_;
+    corner_ = {0, 0, 0};
+    for (int k = 0; k < 3; ++k) {
+        if (box.periodic()[static_cast<std::size_t>(k)]) continue;
+        for (std::size_t f = 0; f < fixed.size(); ++f) {
+            const double beyond = 0.5 * fixed.length[f] * std::fabs(fixed.axis[f][k]) + range_;
+            corner_[k] = std::min(corner_[k], fixed.centre[f][k] - beyond);
+            upper[k] = std::max(upper[k], fixed.centre[f][k] + beyond);
+        }
+    }
+    for (int k = 0; k < 3; ++k) {
+        const double width = upper[k] - corner_[k];
+        const double along = std::clamp(std::floor(width / (0.5 * range_)), 1.0, max_along);
+        cells_[static_cast<std::size_t>(k)] = static_cast<std::size_t>(along);
+        spacing_[k] = width / along;
+    }
+}
+
+/// Adds a copy to the cells whose middles its axis comes to within this distance.
+void FixedRodGrid::add_copy(const FixedCopy& copy, double within, std::vector<std::vector<FixedCopy>>& cells) const {
+    const Vec3& axis = fixed_->axis[copy.number];
+    const double half = 0.5 * fixed_->length[copy.number];
+    std::array<std::size_t, 3> first{}, last{};
+    for (int k = 0; k < 3; ++k) {
+        const auto direction = static_cast<std::size_t>(k);
+        const double beyond = half * std::fabs(axis[k]) + within;
+        const double from = (copy.centre[k] - beyond - corner_[k]) / spacing_[k];
+        const double to = (copy.centre[k] + beyond - corner_[k]) / spacing_[k];
+        const auto most = static_cast<double>(cells_[direction]);
+        if (to < 0.0 || from >= most) return;
+        first[direction] = static_cast<std::size_t>(std::max(from, 0.0));
+        last[direction] = static_cast<std::size_t>(std::min(to, most - 1.0));
+    }
+    for (std::size_t x = first[0]; x <= last[0]; ++x)
+        for (std::size_t y = first[1]; y <= last[1]; ++y)
+            for (std::size_t z = first[2]; z <= last[2]; ++z) {
+                const Vec3 middle = corner_ + Vec3{(static_cast<double>(x) + 0.5) * spacing_.x,
+                                                   (static_cast<double>(y) + 0.5) * spacing_.y,
+                                                   (static_cast<double>(z) + 0.5) * spacing_.z};
+                if (distance_from_axis(middle, copy.centre, axis, half) <= within)
+                    cells[(x * cells_[1] + y) * cells_[2] + z].push_back(copy);
+            }
 }
 
 std::span<const FixedCopy> FixedRodGrid::near(const Vec3& point) const {
@@ -133,15 +138,15 @@ PairGeometry pair_with(const Rods& fixed, const FixedCopy& copy, const Rods& rod
 FixedRodGrid grid_of_fixed_rods(const Box& box, const Rods& rods) {
     FixedRodGrid grid;
     if (box.fixed_rods())
-        grid.fit(box, reach_from_centre(rods, *box.fixed_rods(), std::vector<double>(rods.size(), 0.0)));
+        grid.fit(box, range_from_centre(rods, *box.fixed_rods(), std::vector<double>(rods.size(), 0.0)));
     return grid;
 }
 
-double reach_from_centre(const Rods& rods, const Rods& fixed, std::span<const double> reach) {
+double range_from_centre(const Rods& rods, const Rods& fixed, std::span<const double> range) {
     double thickest = 0.0;
     for (const double diameter : fixed.diameter) thickest = std::max(thickest, diameter);
     return parallel_max(rods.size(), 0.0,
-                        [&](std::size_t i) { return 0.5 * (rods.length[i] + rods.diameter[i] + thickest) + reach[i]; });
+                        [&](std::size_t i) { return 0.5 * (rods.length[i] + rods.diameter[i] + thickest) + range[i]; });
 }
 
 }  // namespace jostle

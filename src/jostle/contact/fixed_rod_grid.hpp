@@ -41,14 +41,14 @@ PairGeometry pair_with(const Rods& fixed, const FixedCopy& copy, const Rods& rod
 /// Which fixed rods are near a place: they do not move, so a grid of cells lists them once.
 class FixedRodGrid {
 public:
-    /// Makes the grid that tells all copies whose axes come within `reach` of a point; keeps the old one if that does.
-    void fit(const Box& box, double reach);
+    /// Makes the grid that tells all copies whose axes come within `range` of a point; keeps the old one if that does.
+    void fit(const Box& box, double range);
 
     bool empty() const { return !fixed_; }
-    double reach() const { return reach_; }
+    double range() const { return range_; }
     const Rods& fixed() const { return *fixed_; }
 
-    /// Copies whose axes may come within `reach` of the point, in the order of their numbers and images.
+    /// Copies whose axes may come within `range` of the point, in the order of their numbers and images.
     std::span<const FixedCopy> near(const Vec3& point) const;
 
     /// A fixed rod and rod `row` with this centre and axis.
@@ -57,10 +57,12 @@ public:
 
 private:
     void list_copies(const Box& box);
+    void set_cells(const Box& box);
+    void add_copy(const FixedCopy& copy, double within, std::vector<std::vector<FixedCopy>>& cells) const;
 
     std::shared_ptr<const Rods> fixed_;
     Vec3 edges_{};
-    double reach_ = 0.0;
+    double range_ = 0.0;
     Vec3 corner_{}, spacing_{1, 1, 1};
     std::array<std::size_t, 3> cells_{1, 1, 1};
     std::vector<std::size_t> begin_;   ///< (cells + 1)
@@ -72,6 +74,6 @@ FixedRodGrid grid_of_fixed_rods(const Box& box, const Rods& rods);
 
 /// The farthest that a point of a rod, or of a fixed rod that it touches, is from its centre: half its length, its
 /// radius, and how far it may come.
-double reach_from_centre(const Rods& rods, const Rods& fixed, std::span<const double> reach);
+double range_from_centre(const Rods& rods, const Rods& fixed, std::span<const double> range);
 
 }  // namespace jostle

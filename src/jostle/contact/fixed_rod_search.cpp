@@ -17,7 +17,7 @@ PairKey key_of(const FixedCopy& copy, std::uint32_t row) {
 /// Whether a pair's middle points are farther apart than it could touch from.
 bool are_apart(const PairGeometry& pair, double range) {
     const double farthest = pair.half_i + pair.half_j + pair.radii + range;
-    return squared_norm(pair.between) > farthest * farthest;
+    return squared_norm(pair.centre_separation) > farthest * farthest;
 }
 
 }  // namespace
@@ -26,28 +26,27 @@ double FixedRodSearch::find(const StepGeometry& step, Contacts& contacts) {
     known_.clear();
     if (!step.box.fixed_rods()) return 0.0;
     const std::size_t count = step.rods.size();
-    reach_.resize(count);
+    interaction_range_.resize(count);
     parallel_for(count, [&](std::size_t i) {
-        reach_[i] =
-            step.displacement[i] + std::max(step.ranges.activation_margin, step.ranges.range);
+        interaction_range_[i] = step.displacement[i] + std::max(step.ranges.activation_margin, step.ranges.range);
     });
-    grid_.fit(step.box, reach_from_centre(step.rods, *step.box.fixed_rods(), reach_));
+    grid_.fit(step.box, range_from_centre(step.rods, *step.box.fixed_rods(), interaction_range_));
     const std::size_t first = contacts.size();
     const double overlap = append_found(count, blocks_, contacts, [&](std::size_t row, FoundContacts& found) {
-        look_at(static_cast<std::uint32_t>(row), step, found);
+        search(static_cast<std::uint32_t>(row), step, found);
     });
     remember(contacts, first);
     return overlap;
 }
 
-void FixedRodSearch::look_at(std::uint32_t row, const StepGeometry& step, FoundContacts& found) const {
+void FixedRodSearch::search(std::uint32_t row, const StepGeometry& step, FoundContacts& found) const {
     const Rods& rods = step.rods;
     for (const FixedCopy& copy : grid_.near(rods.centre[row])) {
         const PairGeometry before = grid_.pair(copy, rods, row, rods.centre[row], rods.axis[row]);
-        if (are_apart(before, reach_[row])) continue;
+        if (are_apart(before, interaction_range_[row])) continue;
         const NearestPoints nearest = nearest_points(before);
         const double gap = norm(nearest.separation) - before.radii;
-        if (gap >= reach_[row]) continue;
+        if (gap >= interaction_range_[row]) continue;
         found.overlap = std::max(found.overlap, -gap);
         const PairGeometry after = grid_.pair(copy, rods, row, step.known.centre[row], step.known.axis[row]);
         const NearestPoints nearest_after = nearest_points(after);
@@ -62,7 +61,8 @@ void FixedRodSearch::look_at(std::uint32_t row, const StepGeometry& step, FoundC
 void FixedRodSearch::append(const FixedCopy& copy, std::uint32_t row, const PairGeometry& before,
                             const NearestPoints& nearest, const PairGeometry& after, const StepGeometry& step,
                             Contacts& contacts) const {
-    append_moving_contacts(key_of(copy, row), {before, nearest, after, step.normals_after}, reach_[row], 3, contacts);
+    append_moving_contacts(key_of(copy, row), {before, nearest, after, step.normals_after}, interaction_range_[row], 3,
+                           contacts);
 }
 
 void FixedRodSearch::remember(const Contacts& contacts, std::size_t first) {
@@ -77,16 +77,16 @@ Contacts FixedRodSearch::violated(const StepGeometry& step, const EndConfigurati
     const std::size_t count = end.rows.size();
     const double farthest =
         parallel_max(count, 0.0, [&](std::size_t k) { return static_cast<double>(end.displacement[k].farthest); });
-    grid_.fit(step.box, reach_from_centre(step.rods, *step.box.fixed_rods(), reach_) + farthest);
+    grid_.fit(step.box, range_from_centre(step.rods, *step.box.fixed_rods(), interaction_range_) + farthest);
     append_found(count, blocks_, all, [&](std::size_t k, FoundContacts& found) {
-        look_again_at(end.rows[k], end.displacement[k].farthest, step, end, found.contacts);
+        search_again(end.rows[k], end.displacement[k].farthest, step, end, found.contacts);
     });
     remember(all, 0);
     return all;
 }
 
-void FixedRodSearch::look_again_at(std::uint32_t row, double farthest, const StepGeometry& step,
-                                   const EndConfiguration& end, Contacts& found) const {
+void FixedRodSearch::search_again(std::uint32_t row, double farthest, const StepGeometry& step,
+                                  const EndConfiguration& end, Contacts& found) const {
     const Rods& rods = step.rods;
     for (const FixedCopy& copy : grid_.near(rods.centre[row])) {
         const PairGeometry after = grid_.pair(copy, rods, row, step.known.centre[row], step.known.axis[row]);
@@ -99,20 +99,20 @@ void FixedRodSearch::look_again_at(std::uint32_t row, double farthest, const Ste
     }
 }
 
-double append_fixed_rod_contacts(const Rods& rods, const Box& box, std::span<const double> reach, Contacts& contacts) {
+double append_fixed_rod_contacts(const Rods& rods, const Box& box, std::span<const double> range, Contacts& contacts) {
     if (!box.fixed_rods()) return 0.0;
     FixedRodGrid grid;
-    grid.fit(box, reach_from_centre(rods, *box.fixed_rods(), reach));
+    grid.fit(box, range_from_centre(rods, *box.fixed_rods(), range));
     double overlap = 0.0;
     for (std::uint32_t row = 0; row < rods.size(); ++row)
         for (const FixedCopy& copy : grid.near(rods.centre[row])) {
             const PairGeometry pair = grid.pair(copy, rods, row, rods.centre[row], rods.axis[row]);
-            if (are_apart(pair, reach[row])) continue;
+            if (are_apart(pair, range[row])) continue;
             const NearestPoints nearest = nearest_points(pair);
             const double gap = norm(nearest.separation) - pair.radii;
             overlap = std::max(overlap, -gap);
-            if (gap < reach[row])
-                append_contacts(key_of(copy, row), pair, nearest, norm(nearest.separation), reach[row], 3, contacts);
+            if (gap < range[row])
+                append_contacts(key_of(copy, row), pair, nearest, norm(nearest.separation), range[row], 3, contacts);
         }
     return overlap;
 }

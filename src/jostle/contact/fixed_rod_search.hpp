@@ -28,25 +28,25 @@ private:
         auto operator<=>(const Known&) const = default;
     };
 
-    void look_at(std::uint32_t row, const StepGeometry& step, FoundContacts& found) const;
-    void look_again_at(std::uint32_t row, double farthest, const StepGeometry& step, const EndConfiguration& end,
-                       Contacts& found) const;
+    void search(std::uint32_t row, const StepGeometry& step, FoundContacts& found) const;
+    void search_again(std::uint32_t row, double farthest, const StepGeometry& step, const EndConfiguration& end,
+                      Contacts& found) const;
     void append(const FixedCopy& copy, std::uint32_t row, const PairGeometry& before, const NearestPoints& nearest,
                 const PairGeometry& after, const StepGeometry& step, Contacts& contacts) const;
     void remember(const Contacts& contacts, std::size_t first);
 
     FixedRodGrid grid_;
-    std::vector<double> reach_;  ///< (N)
-    std::vector<Known> known_;   ///< pairs that are contacts of this step, ascending
+    std::vector<double> interaction_range_;  ///< (N)
+    std::vector<Known> known_;               ///< pairs that are contacts of this step, ascending
     std::vector<FoundContacts> blocks_;
 };
 
-/// Appends the contacts of rods with the fixed rods of their box whose gap is below the rod's reach. `reach`: (N).
+/// Appends the contacts of rods with the fixed rods of their box whose gap is below the rod's range. `range`: (N).
 /// Returns the largest overlap with a fixed rod, max(0, -gap).
-double append_fixed_rod_contacts(const Rods& rods, const Box& box, std::span<const double> reach, Contacts& contacts);
+double append_fixed_rod_contacts(const Rods& rods, const Box& box, std::span<const double> range, Contacts& contacts);
 
 /// How far a rod of this length and diameter reaches into fixed rods, at most; negative: it touches none. -infinity
-/// where none is near. `grid`: of a reach that covers the rod.
+/// where none is near. `grid`: of a range that covers the rod.
 double overlap_with_fixed_rods(const FixedRodGrid& grid, const Vec3& centre, const Vec3& axis, double length,
                                double diameter);
 

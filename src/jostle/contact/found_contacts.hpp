@@ -14,10 +14,10 @@ struct FoundContacts {
     double overlap = 0.0;  ///< the largest, max(0, -gap)
 };
 
-/// Calls look_at(k, found) for all k in [0, count), and appends the contacts that it finds in the order of k, for any
+/// Calls search(k, found) for all k in [0, count), and appends the contacts that it finds in the order of k, for any
 /// number of threads. Returns the largest overlap. `blocks`: room for what is found, kept from call to call.
-template <class LookAt>
-double append_found(std::size_t count, std::vector<FoundContacts>& blocks, Contacts& contacts, LookAt&& look_at) {
+template <class Search>
+double append_found(std::size_t count, std::vector<FoundContacts>& blocks, Contacts& contacts, Search&& search) {
     constexpr std::size_t block_size = 256;  // looked at together
     blocks.resize((count + block_size - 1) / block_size);
     parallel_for_parts(blocks.size(), [&](std::size_t block) {
@@ -25,7 +25,7 @@ double append_found(std::size_t count, std::vector<FoundContacts>& blocks, Conta
         found.contacts.clear();
         found.overlap = 0.0;
         const std::size_t end = std::min(count, (block + 1) * block_size);
-        for (std::size_t k = block * block_size; k < end; ++k) look_at(k, found);
+        for (std::size_t k = block * block_size; k < end; ++k) search(k, found);
     });
     contacts.append(blocks.size(), [&](std::size_t block) -> const Contacts& { return blocks[block].contacts; });
     double overlap = 0.0;

@@ -32,7 +32,7 @@ GapDrift::Side GapDrift::side_of_rod(std::uint32_t row, double arm) const {
 GapDrift::Side GapDrift::side_of_fixed_rod(const Contact& contact, const Image& image) const {
     const PairGeometry pair = pair_with(*box_.fixed_rods(), copy_of(contact, image, box_), rods_, contact.j,
                                         rods_.centre[contact.j], rods_.axis[contact.j]);
-    const double along = dot(pair.between + contact.arm_j * pair.axis_j, pair.axis_i);
+    const double along = dot(pair.centre_separation + contact.arm_j * pair.axis_j, pair.axis_i);
     return {{pair.axis_i, RodMobility{0.0, 0.0, 0.0}}, std::clamp(along, -pair.half_i, pair.half_i), pair.half_i};
 }
 
@@ -42,14 +42,12 @@ double GapDrift::operator()(const Contact& contact, const Image& image) const {
     const Side j = side_of_rod(contact.j, contact.arm_j);
     double drift = -turns * j.rod.mobility.rotational * contact.arm_j * dot(j.rod.axis, contact.normal);
     if (is_fixed(contact.i) && !is_fixed_rod(contact.i)) return drift + at_wall(contact);
-    const Side i =
-        is_fixed(contact.i) ? side_of_fixed_rod(contact, image) : side_of_rod(contact.i, contact.arm_i);
+    const Side i = is_fixed(contact.i) ? side_of_fixed_rod(contact, image) : side_of_rod(contact.i, contact.arm_i);
     drift += turns * i.rod.mobility.rotational * i.arm * dot(i.rod.axis, contact.normal);
     return drift + between(i, j, contact.normal,
-                           is_fixed(contact.i)
-                               ? 0.5 * (box_.fixed_rods()->diameter[number_of_fixed_rod(contact.i)] +
-                                        rods_.diameter[contact.j])
-                               : contact_radii(contact, rods_));
+                           is_fixed(contact.i) ? 0.5 * (box_.fixed_rods()->diameter[number_of_fixed_rod(contact.i)] +
+                                                        rods_.diameter[contact.j])
+                                               : contact_radii(contact, rods_));
 }
 
 double GapDrift::between(const Side& i, const Side& j, const Vec3& normal, double distance) const {

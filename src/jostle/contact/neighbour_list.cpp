@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <tuple>
 
 #include "jostle/contact/cell_list.hpp"
-#include "jostle/contact/segment_separation.hpp"
-#include "jostle/error/input_error.hpp"
+#include "jostle/contact/neighbour_pairs.hpp"
 #include "jostle/math/vectorised.hpp"
 
 namespace jostle {
@@ -15,197 +13,6 @@ namespace jostle {
 namespace {
 
 constexpr std::size_t cells_per_block = 16;
-
-/// Gaps are computed in float, from places relative to a rod near by. Their error, in units of the range of the search,
-/// is far below this; nearly parallel rods have the largest, some 3e-5.
-constexpr double float_error = 2e-4;
-/// Rods are near by within so many ranges.
-constexpr double near = 8.0;
-
-/// Gaps in the list are counted in these; the widest fits 16 bits.
-constexpr float units_per_list_range = 65535.0F;
-
-/// Pairs (i, j, image) of some rods i, one rod after the other; gap and image as the list holds them.
-struct NewPairs {
-    struct Partner {
-        std::uint32_t j;
-        std::uint16_t image, gap;
-    };
-    std::vector<std::uint32_t> i;
-    std::vector<Partner> partners;
-};
-
-/// Rods around a cell, images apart, in arrays for vector instructions.
-struct Surroundings {
-    std::vector<float> x, y, z, axis_x, axis_y, axis_z, half_length, radius, gap;
-    std::vector<std::uint32_t> row;
-    std::vector<std::uint16_t> image;
-
-    void clear() {
-        for (auto* values : {&x, &y, &z, &axis_x, &axis_y, &axis_z, &half_length, &radius}) values->clear();
-        row.clear();
-        image.clear();
-    }
-    void push_back(const Rods& rods, std::uint32_t j, const Vec3& relative_centre, std::uint16_t new_image) {
-        const auto single = [](double value) { return static_cast<float>(value); };
-        x.push_back(single(relative_centre.x));
-        y.push_back(single(relative_centre.y));
-        z.push_back(single(relative_centre.z));
-        axis_x.push_back(single(rods.axis[j].x));
-        axis_y.push_back(single(rods.axis[j].y));
-        axis_z.push_back(single(rods.axis[j].z));
-        half_length.push_back(single(0.5 * rods.length[j]));
-        radius.push_back(single(0.5 * rods.diameter[j]));
-        row.push_back(j);
-        image.push_back(new_image);
-    }
-    std::size_t size() const { return row.size(); }
-};
-
-/// The gaps of one rod and many.
-JOSTLE_VECTORISED void find_gaps(std::size_t count, const float* x, const float* y, const float* z, const float* axis_x,
-                                 const float* axis_y, const float* axis_z, const float* half_length,
-                                 const float* radius, const std::array<float, 8>& one, float* gap) {
-    const auto [x_i, y_i, z_i, ux, uy, uz, half_i, radius_i] = one;
-    for (std::size_t k = 0; k < count; ++k) {
-        const auto [ex, ey, ez] = segment_separation({x[k] - x_i, y[k] - y_i, z[k] - z_i}, {ux, uy, uz}, half_i,
-                                                     {axis_x[k], axis_y[k], axis_z[k]}, half_length[k]);
-        gap[k] = std::sqrt(ex * ex + ey * ey + ez * ez) - radius[k] - radius_i;
-    }
-}
-
-/// The images up to `farthest` to both sides of 0, numbered in ascending order.
-class ImageNumbers {
-public:
-    explicit ImageNumbers(const Image& farthest) : farthest_(farthest) {
-        double count = 1.0;
-        for (const int images : farthest) count *= 2.0 * images + 1.0;
-        if (count > 65536.0)
-            throw InputError({.key = "box.edges",
-                              .problem = "are so short that a rod meets the others in more than 65536 periodic images",
-                              .suggestion = "Enlarge the box"});
-    }
-
-    std::uint16_t of(const Image& image) const {
-        const auto place = [&](std::size_t k) { return image[k] + farthest_[k]; };
-        return static_cast<std::uint16_t>((place(0) * (2 * farthest_[1] + 1) + place(1)) * (2 * farthest_[2] + 1) +
-                                          place(2));
-    }
-
-    std::vector<Image> all() const {
-        std::vector<Image> images;
-        for (int x = -farthest_[0]; x <= farthest_[0]; ++x)
-            for (int y = -farthest_[1]; y <= farthest_[1]; ++y)
-                for (int z = -farthest_[2]; z <= farthest_[2]; ++z) images.push_back({x, y, z});
-        return images;
-    }
-
-private:
-    Image farthest_;
-};
-
-class Builder {
-public:
-    Builder(const Rods& rods, const Box& box, const CellList& cells, const ImageNumbers& images, double range,
-            double list_range, double units_per_length, std::size_t own)
-        : rods_(rods),
-          own_(own),
-          box_(box),
-          cells_(cells),
-          images_(images),
-          zero_(images.of({0, 0, 0})),
-          squared_range_(range * range),
-          error_(static_cast<float>(float_error * range)),
-          list_range_(static_cast<float>(list_range) + error_),
-          units_per_length_(static_cast<float>(units_per_length)) {}
-
-    /// Appends the pairs (i, j >= i, image) with a gap below the range of the list, of all i in a cell; in order for
-    /// each i. Fills in how many there are of each.
-    void append_pairs_of(std::size_t home, Surroundings& around, NewPairs& pairs,
-                         std::vector<std::size_t>& count) const {
-        const auto in_cell = cells_.rods_in(home);
-        // Pairs are those of the smaller row; the first rows are the own ones.
-        const auto homes =
-            in_cell.first(static_cast<std::size_t>(std::ranges::lower_bound(in_cell, own_) - in_cell.begin()));
-        if (are_near_each_other(homes)) return append_pairs_of(home, homes, around, pairs, count);
-        for (std::size_t k = 0; k < homes.size(); ++k) append_pairs_of(home, homes.subspan(k, 1), around, pairs, count);
-    }
-
-private:
-    /// Not so in the outermost cells of an open direction, which have no end.
-    bool are_near_each_other(std::span<const std::uint32_t> homes) const {
-        return std::all_of(homes.begin(), homes.end(), [&](std::uint32_t i) {
-            return squared_norm(rods_.centre[i] - rods_.centre[homes.front()]) < near * near * squared_range_;
-        });
-    }
-
-    void append_pairs_of(std::size_t home, std::span<const std::uint32_t> homes, Surroundings& around, NewPairs& pairs,
-                         std::vector<std::size_t>& count) const {
-        if (homes.empty()) return;
-        const Vec3 origin = rods_.centre[homes.front()];
-        gather(home, homes, origin, around);
-        around.gap.resize(around.size());
-        for (const std::uint32_t i : homes) {
-            const std::size_t first = pairs.partners.size();
-            const auto single = [](double value) { return static_cast<float>(value); };
-            const Vec3 centre = rods_.centre[i] - origin, &axis = rods_.axis[i];
-            find_gaps(around.size(), around.x.data(), around.y.data(), around.z.data(), around.axis_x.data(),
-                      around.axis_y.data(), around.axis_z.data(), around.half_length.data(), around.radius.data(),
-                      {single(centre.x), single(centre.y), single(centre.z), single(axis.x), single(axis.y),
-                       single(axis.z), single(0.5 * rods_.length[i]), single(0.5 * rods_.diameter[i])},
-                      around.gap.data());
-            for (std::size_t k = 0; k < around.size(); ++k) {
-                const std::uint32_t j = around.row[k];
-                // A rod and its own image are met twice, in opposite images; the one above 0 stands for both.
-                if (around.gap[k] >= list_range_ || j < i || (j == i && around.image[k] <= zero_)) continue;
-                pairs.partners.push_back({j, around.image[k], in_units(around.gap[k])});
-            }
-            pairs.i.push_back(i);
-            count[i] = pairs.partners.size() - first;
-            std::sort(pairs.partners.begin() + static_cast<std::ptrdiff_t>(first), pairs.partners.end(),
-                      [](const auto& a, const auto& b) { return std::tie(a.j, a.image) < std::tie(b.j, b.image); });
-        }
-    }
-
-    std::uint16_t in_units(float gap) const {
-        return static_cast<std::uint16_t>(std::clamp((gap - error_) * units_per_length_, 0.0F, units_per_list_range));
-    }
-
-    /// The rods within range of the box that encloses the centres of `homes`.
-    void gather(std::size_t home, std::span<const std::uint32_t> homes, const Vec3& origin,
-                Surroundings& around) const {
-        Vec3 low, high;
-        for (const std::uint32_t i : homes)
-            for (int k = 0; k < 3; ++k) {
-                low[k] = std::min(low[k], rods_.centre[i][k] - origin[k]);
-                high[k] = std::max(high[k], rods_.centre[i][k] - origin[k]);
-            }
-        around.clear();
-        cells_.visit(home, [&](std::span<const std::uint32_t> others, const Image& image) {
-            const Vec3 displacement = box_.displacement(image) - origin;
-            const std::uint16_t number = images_.of(image);
-            for (const std::uint32_t j : others) {
-                if (j < homes.front()) continue;  // all such pairs are those of the other cell
-                const Vec3 centre = rods_.centre[j] + displacement;
-                double squared = 0.0;
-                for (int k = 0; k < 3; ++k) {
-                    const double outside = std::max({low[k] - centre[k], centre[k] - high[k], 0.0});
-                    squared += outside * outside;
-                }
-                if (squared < squared_range_) around.push_back(rods_, j, centre, number);
-            }
-        });
-    }
-
-    const Rods& rods_;
-    std::size_t own_;
-    const Box& box_;
-    const CellList& cells_;
-    const ImageNumbers& images_;
-    std::uint16_t zero_;
-    double squared_range_;
-    float error_, list_range_, units_per_length_;
-};
 
 JOSTLE_VECTORISED void extents_less_gaps(std::size_t count, const std::uint32_t* j, const std::uint16_t* gap,
                                          const std::int32_t* extent, std::int32_t* extent_i) {
@@ -357,7 +164,7 @@ void NeighbourList::build(const Rods& rods, const Box& box, double list_range, s
     const ImageNumbers images(cells.farthest_image());
     images_ = images.all();
     units_per_length_ = list_range > 0.0 ? units_per_list_range / list_range : 0.0;
-    const Builder builder(rods, box, cells, images, range, list_range, units_per_length_, own);
+    const NeighbourPairs finder(rods, box, cells, images, range, list_range, units_per_length_, own);
     std::vector<NewPairs> blocks((cells.size() + cells_per_block - 1) / cells_per_block);
     begin_.assign(rods.size() + 1, 0);
     parallel_for_blocks(cells.size(), cells_per_block, [&](std::size_t block, std::size_t first, std::size_t last) {
@@ -365,7 +172,7 @@ void NeighbourList::build(const Rods& rods, const Box& box, double list_range, s
         thread_local NewPairs pairs;
         pairs.i.clear();
         pairs.partners.clear();
-        for (std::size_t cell = first; cell < last; ++cell) builder.append_pairs_of(cell, around, pairs, begin_);
+        for (std::size_t cell = first; cell < last; ++cell) finder.append_pairs_of(cell, around, pairs, begin_);
         blocks[block] = pairs;  // no larger than need be
     });
     std::exclusive_scan(begin_.begin(), begin_.end(), begin_.begin(), std::size_t{0});

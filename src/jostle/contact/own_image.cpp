@@ -16,10 +16,10 @@ double inclination_between_images(double apart, double length, double diameter) 
 }
 
 std::optional<OwnImageTouch> touch_of_own_image(const PairGeometry& pair) {
-    const double apart = norm(pair.between), diameter = pair.radii, length = 2.0 * pair.half_i;
+    const double apart = norm(pair.centre_separation), diameter = pair.radii, length = 2.0 * pair.half_i;
     if (!(apart > diameter) || apart >= length + diameter) return std::nullopt;
     const double inclination = inclination_between_images(apart, length, diameter);
-    const Vec3 towards = pair.between / apart;
+    const Vec3 towards = pair.centre_separation / apart;
     const double along = std::clamp(dot(pair.axis_i, towards), -1.0, 1.0);
     const Vec3 across = pair.axis_i - along * towards;
     const double cosine = norm(across);

@@ -28,8 +28,8 @@ struct OwnImageTouch {
 /// than D.
 std::optional<OwnImageTouch> touch_of_own_image(const PairGeometry& pair);
 
-/// The contact of rod `key.i` with its image when they lie as in `pair`, with the way left as its gap after the known motion; none
-/// where they cannot touch. The gap is left at 0.
+/// The contact of rod `key.i` with its image when they lie as in `pair`, with the way left as its gap after the known
+/// motion; none where they cannot touch. The gap is left at 0.
 std::optional<Contact> contact_with_own_image(const PairKey& key, const PairGeometry& pair);
 
 }  // namespace jostle

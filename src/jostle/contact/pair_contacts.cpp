@@ -73,13 +73,13 @@ EndPoints end_points(const PairGeometry& pair, const Point& nearest, double rang
     EndPoints ends;
     const double spacing = least_spacing * pair.radii;
     for (const double end : {-pair.half_j, pair.half_j}) {
-        const auto foot = nearest_point(pair.between + end * pair.axis_j, pair.axis_i, pair.half_i);
+        const auto foot = nearest_point(pair.centre_separation + end * pair.axis_j, pair.axis_i, pair.half_i);
         const double distance = norm(foot.separation);
         if (std::fabs(foot.s) < pair.half_i && distance < range)
             ends.offer({foot.s, end, distance, foot.separation, ContactFeature::end_of_j}, nearest.s_i, spacing);
     }
     for (const double end : {-pair.half_i, pair.half_i}) {
-        const auto foot = nearest_point(end * pair.axis_i - pair.between, pair.axis_j, pair.half_j);
+        const auto foot = nearest_point(end * pair.axis_i - pair.centre_separation, pair.axis_j, pair.half_j);
         const double distance = norm(foot.separation);
         if (std::fabs(foot.s) < pair.half_j && distance < range)
             ends.offer({end, foot.s, distance, -foot.separation, ContactFeature::end_of_i}, nearest.s_i, spacing);
@@ -91,7 +91,7 @@ EndPoints end_points(const PairGeometry& pair, const Point& nearest, double rang
 PairGeometry on_the_way(const MovingPair& pair) {
     const auto between = [part = pair.normals_after](const Vec3& a, const Vec3& b) { return a + part * (b - a); };
     PairGeometry here = pair.before;
-    here.between = between(pair.before.between, pair.after.between);
+    here.centre_separation = between(pair.before.centre_separation, pair.after.centre_separation);
     here.axis_i = normalised(between(pair.before.axis_i, pair.after.axis_i));
     here.axis_j = normalised(between(pair.before.axis_j, pair.after.axis_j));
     return here;
@@ -146,11 +146,12 @@ double gap_of_contact(const Contact& contact, ContactFeature feature, const Pair
             separation = nearest_points(pair).separation;
             break;
         case ContactFeature::end_of_i:
-            separation =
-                -nearest_point(contact.arm_i * pair.axis_i - pair.between, pair.axis_j, pair.half_j).separation;
+            separation = -nearest_point(contact.arm_i * pair.axis_i - pair.centre_separation, pair.axis_j, pair.half_j)
+                              .separation;
             break;
         case ContactFeature::end_of_j:
-            separation = nearest_point(pair.between + contact.arm_j * pair.axis_j, pair.axis_i, pair.half_i).separation;
+            separation = nearest_point(pair.centre_separation + contact.arm_j * pair.axis_j, pair.axis_i, pair.half_i)
+                             .separation;
             break;
     }
     const double distance = dot(separation, contact.normal) < 0.0 ? -norm(separation) : norm(separation);
@@ -185,7 +186,7 @@ std::optional<Contact> relinearised_contact(const Contact& known, const PairGeom
     contact.normal = (side / distance) * nearest.separation;
     contact.arm_i = nearest.s_i;
     contact.arm_j = nearest.s_j;
-    const Vec3 points = before.between + contact.arm_j * before.axis_j - contact.arm_i * before.axis_i;
+    const Vec3 points = before.centre_separation + contact.arm_j * before.axis_j - contact.arm_i * before.axis_i;
     contact.gap = dot(points, contact.normal) - at_end.radii;
     contact.gap_after = side * distance - at_end.radii;
     return contact;

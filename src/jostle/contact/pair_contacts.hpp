@@ -11,16 +11,16 @@ namespace jostle {
 
 /// Two rods as the search for contacts sees them.
 struct PairGeometry {
-    Vec3 between;  ///< from centre i to centre j, image included
+    Vec3 centre_separation;  ///< from centre i to centre j, image included
     Vec3 axis_i, axis_j;
     double half_i, half_j;  ///< half lengths
     double radii;           ///< (D_i + D_j)/2
 };
 
 /// Rods i and j with these axes, whose centres are `between` apart.
-inline PairGeometry pair_geometry(const Rods& rods, std::size_t i, std::size_t j, const Vec3& between,
+inline PairGeometry pair_geometry(const Rods& rods, std::size_t i, std::size_t j, const Vec3& centre_separation,
                                   const Vec3& axis_i, const Vec3& axis_j) {
-    return {between,
+    return {centre_separation,
             axis_i,
             axis_j,
             0.5 * rods.length[i],
@@ -36,7 +36,7 @@ inline PairGeometry pair_geometry(const Rods& rods, std::size_t i, std::size_t j
 
 /// The nearest points of a pair's segments.
 inline NearestPoints nearest_points(const PairGeometry& pair) {
-    return nearest_points(pair.between, pair.axis_i, pair.half_i, pair.axis_j, pair.half_j);
+    return nearest_points(pair.centre_separation, pair.axis_i, pair.half_i, pair.axis_j, pair.half_j);
 }
 
 /// Distance of the two surfaces.
@@ -48,7 +48,7 @@ inline double pair_gap(const PairGeometry& pair) {
 /// axes.
 inline bool pair_overlaps(const PairGeometry& pair) {
     const Vec3 across = cross(pair.axis_i, pair.axis_j);
-    const double shift = dot(pair.between, across);
+    const double shift = dot(pair.centre_separation, across);
     if (shift * shift > 1.001 * pair.radii * pair.radii * squared_norm(across)) return false;
     return pair_gap(pair) < 0.0;
 }

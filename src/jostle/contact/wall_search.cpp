@@ -45,11 +45,11 @@ double WallSearch::find(const StepGeometry& step, Contacts& contacts) {
     const std::size_t count = step.rods.size();
     known_.assign(count, 0);
     return append_found(count, blocks_, contacts, [&](std::size_t row, FoundContacts& found) {
-        look_at(static_cast<std::uint32_t>(row), step, found);
+        search(static_cast<std::uint32_t>(row), step, found);
     });
 }
 
-void WallSearch::look_at(std::uint32_t row, const StepGeometry& step, FoundContacts& found) {
+void WallSearch::search(std::uint32_t row, const StepGeometry& step, FoundContacts& found) {
     const Rods& rods = step.rods;
     const double range = std::max(step.ranges.activation_margin, step.ranges.range);
     for (const Wall& wall : walls_) {
@@ -70,13 +70,13 @@ Contacts WallSearch::violated(const StepGeometry& step, const EndConfiguration& 
     Contacts all;
     if (walls_.empty()) return all;
     append_found(end.rows.size(), blocks_, all, [&](std::size_t k, FoundContacts& found) {
-        look_again_at(end.rows[k], end.displacement[k].farthest, step, end, found.contacts);
+        search_again(end.rows[k], end.displacement[k].farthest, step, end, found.contacts);
     });
     return all;
 }
 
-void WallSearch::look_again_at(std::uint32_t row, double farthest, const StepGeometry& step,
-                               const EndConfiguration& end, Contacts& found) {
+void WallSearch::search_again(std::uint32_t row, double farthest, const StepGeometry& step, const EndConfiguration& end,
+                              Contacts& found) {
     const Rods& rods = step.rods;
     for (const Wall& wall : walls_) {
         if (is_far(wall, row, farthest, step)) continue;

@@ -23,9 +23,9 @@ public:
     Contacts violated(const StepGeometry& step, const EndConfiguration& end);
 
 private:
-    void look_at(std::uint32_t row, const StepGeometry& step, FoundContacts& found);
-    void look_again_at(std::uint32_t row, double farthest, const StepGeometry& step, const EndConfiguration& end,
-                       Contacts& found);
+    void search(std::uint32_t row, const StepGeometry& step, FoundContacts& found);
+    void search_again(std::uint32_t row, double farthest, const StepGeometry& step, const EndConfiguration& end,
+                      Contacts& found);
     bool is_contact(std::uint32_t row, const Wall& wall, double arm) const {
         return (known_[row] >> bit_of(wall, arm) & 1U) != 0;
     }

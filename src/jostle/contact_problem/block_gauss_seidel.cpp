@@ -219,8 +219,8 @@ void BlockGaussSeidel<Real>::append(Group<Item>& group, std::span<const ContactP
 
 template <class Real>
 template <class Item>
-template <class IsAwake>
-void BlockGaussSeidel<Real>::Group<Item>::sort_out(std::size_t first, IsAwake&& is_active) {
+template <class IsActive>
+void BlockGaussSeidel<Real>::Group<Item>::sort_out(std::size_t first, IsActive&& is_active) {
     const std::size_t known_blocks = first / block_size;  // with nothing new
     active.resize((items.size() + block_size - 1) / block_size, 0);
     parallel_for_blocks(items.size() - known_blocks * block_size, block_size,

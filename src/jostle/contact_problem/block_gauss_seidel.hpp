@@ -68,8 +68,8 @@ private:
 
         /// Brings the items from `first` on that are active to the front of their blocks; of those before, as many are
         /// as `active` tells.
-        template <class IsAwake>
-        void sort_out(std::size_t first, IsAwake&& is_active);
+        template <class IsActive>
+        void sort_out(std::size_t first, IsActive&& is_active);
     };
     struct Kinds {
         Group<ScalarBlock<Real>> singles;

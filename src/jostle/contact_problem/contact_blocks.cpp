@@ -28,7 +28,7 @@ double solve(ScalarBlock<Real>& contact, double omega, const LocalRods<Real>& lo
     const Real relaxed = contact.gamma - static_cast<Real>(omega) * contact.gap_velocity(local_rods.velocities) *
                                              contact.inverse_diagonal;
     const Real change = std::max(relaxed, Real{0}) - contact.gamma;
-    contact.push(change, local_rods.velocities);
+    contact.apply_impulse(change, local_rods.velocities);
     return std::fabs(change) * contact.diagonal;
 }
 
@@ -55,12 +55,12 @@ double solve(CoupledBlock& pair, double omega, const LocalRods<Real>& local_rods
         add_contact_force(change, point, on_i, on_j);
         largest = std::max(largest, std::fabs(change) * pair.matrix[a][a]);
     }
-    const auto push = [&local_rods](std::uint32_t local, const ContactForce& by) {
+    const auto apply_impulse = [&local_rods](std::uint32_t local, const ContactForce& by) {
         local_rods.velocities[local].lanes +=
             SpatialVector<Real>(velocity_of(local_rods.rods[local], by.force, by.moment)).lanes;
     };
-    if (pair.i != no_local_index) push(pair.i, on_i);
-    push(pair.j, on_j);
+    if (pair.i != no_local_index) apply_impulse(pair.i, on_i);
+    apply_impulse(pair.j, on_j);
     return largest;
 }
 

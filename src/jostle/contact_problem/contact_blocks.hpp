@@ -54,7 +54,7 @@ struct ScalarBlock {
     Real gap_velocity(const SpatialVector<Real>* velocities) const {
         return b + compliance * gamma + sum_of_products(jacobian_i, velocities[i], jacobian_j, velocities[j]);
     }
-    void push(Real change, SpatialVector<Real>* velocities) {
+    void apply_impulse(Real change, SpatialVector<Real>* velocities) {
         gamma += change;
         velocities[i].lanes += change * response_i.lanes;
         velocities[j].lanes += change * response_j.lanes;

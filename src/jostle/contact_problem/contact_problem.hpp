@@ -53,6 +53,11 @@ public:
     const std::vector<double>& constant() const { return b_; }
     const std::vector<double>& start() const { return start_; }
     double time_step() const { return time_step_; }
+    /// (contacts) how fast each gap opens, A gamma + b, from gamma and the velocities that follow from it.
+    void gap_velocities(const ContactSolution& solution, std::span<double> rates) const {
+        matrix_.rates(solution.velocities, solution.gamma, rates);
+        parallel_for(rates.size(), [&](std::size_t l) { rates[l] += b_[l]; });
+    }
     LcpProblem lcp() const { return {matrix_, b_, time_step_, domain_.ranks(), is_elsewhere_}; }
 
     const Domain& domain() const { return domain_; }

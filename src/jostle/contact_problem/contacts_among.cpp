@@ -21,23 +21,19 @@ ContactsAmong::ContactsAmong(const DelassusOperator& matrix)
     mobility_ = matrix.mobility().among(rows);
     forces_.resize(touches.size());
     velocities_.resize(touches.size());
-    pushed_ = Forces(locals_.size());
+    rod_forces_ = Forces(locals_.size());
 }
 
 void ContactsAmong::apply(bool near, std::span<const double> gamma, std::span<double> rates) const {
     matrix_.contact_matrix().apply(gamma, forces_);
     const auto axis = [&](std::size_t k) -> const Vec3& { return matrix_.rods()[locals_[k]].axis; };
-    parallel_for(locals_.size(), [&](std::size_t k) {
-        pushed_.force[k] = forces_[locals_[k]].force;
-        pushed_.torque[k] = cross(axis(k), forces_[locals_[k]].moment);
-    });
+    parallel_for(locals_.size(), [&](std::size_t k) { set_force(forces_[locals_[k]], axis(k), k, rod_forces_); });
     if (near)
-        mobility_->apply_near(pushed_, moved_);
+        mobility_->apply_near(rod_forces_, rod_velocities_);
     else
-        mobility_->apply(pushed_, moved_);
-    parallel_for(locals_.size(), [&](std::size_t k) {
-        velocities_[locals_[k]] = {moved_.linear[k], cross(moved_.angular[k], axis(k))};
-    });
+        mobility_->apply(rod_forces_, rod_velocities_);
+    parallel_for(locals_.size(),
+                 [&](std::size_t k) { velocities_[locals_[k]] = contact_velocity(rod_velocities_, k, axis(k)); });
     matrix_.rates(velocities_, gamma, rates);
 }
 

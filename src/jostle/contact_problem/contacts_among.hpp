@@ -42,8 +42,8 @@ private:
     Part whole_, near_;
     mutable std::vector<ContactForce> forces_;
     mutable std::vector<ContactVelocity> velocities_;
-    mutable Forces pushed_;     ///< (n)
-    mutable Velocities moved_;  ///< (n)
+    mutable Forces rod_forces_;          ///< (n)
+    mutable Velocities rod_velocities_;  ///< (n)
 };
 
 }  // namespace jostle

@@ -81,14 +81,11 @@ void DelassusOperator::apply_coupling_mobility(std::span<const ContactForce> for
     const auto rows = contact_matrix_.rods();
     Forces all_forces(all_rods_.size());
     Velocities all_velocities(all_rods_.size());
-    parallel_for(rows.size(), [&](std::size_t local) {
-        all_forces.force[rows[local]] = forces[local].force;
-        all_forces.torque[rows[local]] = cross(rods_[local].axis, forces[local].moment);
-    });
+    parallel_for(rows.size(),
+                 [&](std::size_t local) { set_force(forces[local], rods_[local].axis, rows[local], all_forces); });
     mobility_.apply(all_forces, all_velocities);
     parallel_for(rows.size(), [&](std::size_t local) {
-        const std::uint32_t row = rows[local];
-        velocities[local] = {all_velocities.linear[row], cross(all_velocities.angular[row], rods_[local].axis)};
+        velocities[local] = contact_velocity(all_velocities, rows[local], rods_[local].axis);
     });
 }
 

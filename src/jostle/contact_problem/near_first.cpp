@@ -11,11 +11,11 @@ namespace jostle {
 
 namespace {
 
-/// Missed contacts are looked for early from so many tolerances on.
+/// Violated pairs are looked for early from so many tolerances on.
 constexpr double early_search_tolerances = 30.0;
 /// The near part is solved to this part of the residual, and no finer than to this part of the tolerance.
 constexpr double near_part = 0.05, finest_near_part = 0.2;
-constexpr std::uint64_t most_near_applications = 300;
+constexpr std::uint64_t max_near_applications = 300;
 
 }  // namespace
 
@@ -55,8 +55,7 @@ void NearFirst::begin_again() {
 /// A gamma + b of all contacts, from the velocities of all rods, which are up to date.
 void NearFirst::take_in_contacts() {
     velocity_.resize(problem_.size());
-    problem_.matrix().rates(solution_.velocities, solution_.gamma, velocity_);
-    parallel_for(velocity_.size(), [&](std::size_t l) { velocity_[l] += problem_.constant()[l]; });
+    problem_.gap_velocities(solution_, velocity_);
 }
 
 double NearFirst::residual() const {
@@ -67,8 +66,7 @@ double NearFirst::residual() const {
 double NearFirst::verified() {
     problem_.complete(solution_);
     ++outcome_.iterations;
-    problem_.matrix().rates(solution_.velocities, solution_.gamma, velocity_);
-    parallel_for(velocity_.size(), [&](std::size_t l) { velocity_[l] += problem_.constant()[l]; });
+    problem_.gap_velocities(solution_, velocity_);
     return residual();
 }
 
@@ -94,7 +92,7 @@ void NearFirst::improve(double residual) {
     parallel_for(gamma.size(), [&](std::size_t l) { constant[l] = velocity_[l] - constant[l]; });
     LcpSettings near_settings = settings_;
     near_settings.tolerance = std::max(near_part * residual, finest_near_part * settings_.tolerance);
-    near_settings.max_iterations = most_near_applications;
+    near_settings.max_iterations = max_near_applications;
     const LcpProblem near{among_->near(), constant, problem_.time_step()};
     std::vector<double> step = solve_adaptive_bb(near, near_settings, gamma).solution;
     parallel_for(gamma.size(), [&](std::size_t l) { step[l] -= gamma[l]; });

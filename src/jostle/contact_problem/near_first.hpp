@@ -18,7 +18,7 @@ namespace jostle {
 /// gamma* - gamma descends, as it lowers the same energy with B in the place of A, so that this converges as any
 /// exact line search along such directions does. What B leaves out is smooth, and two rods that push each other are
 /// hardly moved by it: few applications of M are needed (decision 0059). M is applied among the rods with contacts
-/// alone, and to all of them once before each stop. It stops at a candidate once, to have missed contacts found early,
+/// alone, and to all of them once before each stop. It stops at a candidate once, to have violated pairs found early,
 /// and at every solution. The outcome's iterations are applications of M.
 class NearFirst final : public ContactSolver {
 public:

@@ -25,11 +25,11 @@ std::uint64_t priority_of(std::uint64_t id_i, std::uint64_t id_j, const Image& i
     return hash;
 }
 
-/// The same on all ranks.
-struct PairName {
+/// By which pairs get their colours: the same on all ranks.
+struct PairPriority {
     std::uint64_t priority = 0, i = ~std::uint64_t{0}, j = ~std::uint64_t{0};
     Image image{};
-    bool operator==(const PairName&) const = default;
+    bool operator==(const PairPriority&) const = default;
 };
 
 /// Whether i is a rod beside j: neither a fixed body, nor j itself, which meets its own image.
@@ -79,12 +79,12 @@ void PairColours::colour_between_ranks(const ContactMatrix& contact_matrix, cons
         waiting.push_back(p);
         between.push_back(pairs_[p]);
     }
-    const auto name_of = [&](std::uint32_t p) -> PairName {
+    const auto priority_key = [&](std::uint32_t p) -> PairPriority {
         const std::uint32_t l = pairs_[p].first;
         return {priority_[p], contact_matrix.id_of_i(l), contact_matrix.id_of_j(l), contact_matrix.contacts().image[l]};
     };
     struct Standing {
-        PairName turn;  ///< whose it is
+        PairPriority turn;  ///< whose it is
         std::uint64_t taken;
     };
     BorderMessages messages(domain, contact_matrix, between, sizeof(Standing));
@@ -92,15 +92,16 @@ void PairColours::colour_between_ranks(const ContactMatrix& contact_matrix, cons
     for (;;) {
         for (const ContactPair& pair : between)
             for (const std::uint32_t local : {pair.i, pair.j})
-                standing[local] = {next_[local] < begin_[local + 1] ? name_of(turns_[next_[local]].pair) : PairName{},
-                                   taken_[local]};
+                standing[local] = {
+                    next_[local] < begin_[local + 1] ? priority_key(turns_[next_[local]].pair) : PairPriority{},
+                    taken_[local]};
         messages.bring(std::span(standing));
         std::vector<std::uint32_t> decided;
         std::erase_if(waiting, [&](std::uint32_t p) {
             const auto [i, j, first, count] = pairs_[p];
-            const PairName name = name_of(p);
+            const PairPriority key = priority_key(p);
             const bool is_next =
-                standing[i].turn == name && standing[j].turn == name && is_next_of(i, p) && is_next_of(j, p);
+                standing[i].turn == key && standing[j].turn == key && is_next_of(i, p) && is_next_of(j, p);
             if (is_next) decided.push_back(p);
             return is_next;
         });

@@ -25,7 +25,7 @@ constexpr std::uint64_t full_sweep_every = 5;
 constexpr double finest_in_float = 1e-5;
 /// Double takes over where so many verifications have found more residual than the sweeps in float had left to do.
 constexpr int patience_with_float = 3;
-/// After this sweep, and three times as many, and so on, missed contacts are looked for before the sweeps have settled.
+/// After this sweep, and three times as many, and so on, violated pairs are looked for before the sweeps have settled.
 constexpr std::uint64_t early_search = 6;
 /// Momentum is quick to this part of the deepest overlap, and stands still before finer tolerances.
 constexpr double finest_with_momentum = 2e-3;
@@ -65,15 +65,15 @@ public:
           verify_first_(verify_first),
           warm_(!problem.start().empty()),
           may_have_momentum_(may_have_momentum),
-          sweeper_(problem, settings.tolerance, solution.gamma) {
-        sweeper_.refresh(solution_);
+          gauss_seidel_(problem, settings.tolerance, solution.gamma) {
+        gauss_seidel_.refresh(solution_);
     }
 
     /// With the constants that the problem has now, from no forces. `verify_first`: before any sweep.
     void begin_again(bool verify_first) {
-        sweeper_.begin_again();
+        gauss_seidel_.begin_again();
         momentum_.restart();
-        warm_ = may_have_momentum_ = at_candidate_ = look_at_all_ = false;
+        warm_ = may_have_momentum_ = at_candidate_ = sweep_all_ = false;
         verify_first_ = verify_first;
         begun_ = outcome_.iterations;
         next_search_ = begun_ + early_search;
@@ -85,7 +85,7 @@ public:
     /// Goes on after the last end; `grown`: the problem has more contacts since.
     End run(bool grown) {
         if (grown) {
-            sweeper_.extend();
+            gauss_seidel_.extend();
             momentum_.restart();
         }
         bool sweep_is_judged = !std::exchange(at_candidate_, false) || grown;
@@ -102,7 +102,7 @@ public:
             const bool decided = verify();
             const bool settled = !(change_ > settings_.tolerance);
             if (!decided && settled && ++failures_ == max_failures_) return End::given_up;
-            look_at_all_ = true;
+            sweep_all_ = true;
             next_verification_ = outcome_.iterations + 5;
             if (decided) return verified_end();
         }
@@ -111,11 +111,10 @@ public:
     /// Residual and status, over all contacts, from gamma alone. Returns whether the status decides: solved, or not
     /// finite.
     bool verify() {
-        sweeper_.refresh(solution_);
+        gauss_seidel_.refresh(solution_);
         LcpResult result;
         result.velocity.resize(problem_.size());
-        problem_.matrix().rates(solution_.velocities, solution_.gamma, result.velocity);
-        parallel_for(result.velocity.size(), [&](std::size_t l) { result.velocity[l] += problem_.constant()[l]; });
+        problem_.gap_velocities(solution_, result.velocity);
         result.solution.swap(solution_.gamma);
         result.residual = lcp_residual(problem_.lcp(), settings_.residual, result.solution, result.velocity);
         outcome_.status = lcp_status(problem_.lcp(), settings_, result);
@@ -135,16 +134,16 @@ private:
 
     double sweep_on() {
         const double last_change = change_ > 0.0 ? change_ / problem_.time_step() : 1.0;
-        const auto [change, turning] = sweeper_.sweep_on(momentum_.beta(), last_change);
+        const auto [change, turning] = gauss_seidel_.sweep_on(momentum_.beta(), last_change);
         momentum_.advance(change, turning > 0);
         return change;
     }
 
     double sweep_over_relaxed() {
         const std::uint64_t sweeps = outcome_.iterations - begun_;
-        const bool all = std::exchange(look_at_all_, false) || sweeps % full_sweep_every == full_sweep_every - 1;
+        const bool all = std::exchange(sweep_all_, false) || sweeps % full_sweep_every == full_sweep_every - 1;
         const double omega = relaxation(sweeps, warm_);
-        return sweeper_.sweep(omega, all ? SweepOver::all : SweepOver::active);
+        return gauss_seidel_.sweep(omega, all ? SweepOver::all : SweepOver::active);
     }
 
     bool is_interrupted() {
@@ -158,7 +157,7 @@ private:
         if (!(has_momentum() ? has_fallen_to_next_search() : outcome_.iterations >= next_search_)) return false;
         next_search_ = begun_ + 3 * (outcome_.iterations - begun_);
         next_search_change_ = next_search_part * change_;
-        sweeper_.read_velocities(solution_.velocities);
+        gauss_seidel_.read_velocities(solution_.velocities);
         at_candidate_ = true;
         return true;
     }
@@ -192,12 +191,12 @@ private:
     SolverOutcome& outcome_;
     int max_failures_, failures_ = 0;
     bool verify_first_, warm_, may_have_momentum_;
-    BlockGaussSeidel<Real> sweeper_;
+    BlockGaussSeidel<Real> gauss_seidel_;
     SweepMomentum momentum_;
     std::uint64_t begun_ = 0;  ///< sweeps before it began again
     std::uint64_t next_search_ = early_search, next_verification_ = 0;
     double next_search_change_ = 0.0;  ///< the same by the largest change
-    bool at_candidate_ = false, look_at_all_ = false;
+    bool at_candidate_ = false, sweep_all_ = false;
     double change_ = 0.0;  ///< of a gap by the last sweep, at most
 };
 

@@ -75,18 +75,18 @@ Bounds bounds_of(const Rods& rods, std::size_t row) {
     return bounds;
 }
 
-/// Whether two come nearer than `reach` along every direction, in some periodic image.
-bool are_near(const Bounds& a, const Bounds& b, double reach, const Box& box) {
+/// Whether two come nearer than `range` along every direction, in some periodic image.
+bool are_near(const Bounds& a, const Bounds& b, double range, const Box& box) {
     for (int k = 0; k < 3; ++k) {
         if (!(b.low[k] <= b.high[k])) return false;
         const double edge = box.edges()[k];
-        // a displaced by m edges, low_a + m edge <= high_b + reach: the farthest such one is the only one to ask.
-        double below = b.high[k] + reach - a.low[k];
+        // a displaced by m edges, low_a + m edge <= high_b + range: the farthest such one is the only one to ask.
+        double below = b.high[k] + range - a.low[k];
         if (box.periodic()[static_cast<std::size_t>(k)])
-            below -= std::floor(below / edge) * edge;  // how far low_a is then below high_b + reach
+            below -= std::floor(below / edge) * edge;  // how far low_a is then below high_b + range
         else if (below < 0.0)
             return false;
-        if (b.high[k] + reach - below + (a.high[k] - a.low[k]) < b.low[k] - reach) return false;
+        if (b.high[k] + range - below + (a.high[k] - a.low[k]) < b.low[k] - range) return false;
     }
     return true;
 }
@@ -107,7 +107,7 @@ void Domain::share_out(Rods& rods) {
     owned_ = rods.size();
 }
 
-void Domain::gather(Rods& rods, const Box& box, double reach, bool balance) {
+void Domain::gather(Rods& rods, const Box& box, double range, bool balance) {
     if (!is_shared()) return;
     std::vector<std::uint32_t> own(owned_);
     for (std::uint32_t row = 0; row < own.size(); ++row) own[row] = row;
@@ -115,7 +115,7 @@ void Domain::gather(Rods& rods, const Box& box, double reach, bool balance) {
     if (balance || !std::exchange(is_cut_, true))
         partition_.balance(ranks_, box, rods.centre, std::vector<float>(rods.size(), 1.0F));
     migrate(rods, box);
-    fetch_ghosts(rods, box, reach);
+    fetch_ghosts(rods, box, range);
 }
 
 void Domain::migrate(Rods& rods, const Box& box) {
@@ -140,7 +140,7 @@ void Domain::migrate(Rods& rods, const Box& box) {
     owned_ = counts_.owned = rods.size();
 }
 
-void Domain::fetch_ghosts(Rods& rods, const Box& box, double reach) {
+void Domain::fetch_ghosts(Rods& rods, const Box& box, double range) {
     const Carries carries = carried_by_any(ranks_, rods);
     Bounds own;
     std::vector<Bounds> bounds(owned_);
@@ -149,10 +149,10 @@ void Domain::fetch_ghosts(Rods& rods, const Box& box, double reach) {
     std::vector<std::vector<CarriedRod>> to(of_rank.size());
     std::vector<std::vector<std::uint32_t>> sent(of_rank.size());
     for (std::size_t q = 0; q < of_rank.size(); ++q) {
-        if (q == static_cast<std::size_t>(ranks_.rank()) || owned_ == 0 || !are_near(own, of_rank[q], reach, box))
+        if (q == static_cast<std::size_t>(ranks_.rank()) || owned_ == 0 || !are_near(own, of_rank[q], range, box))
             continue;
         for (std::uint32_t row = 0; row < owned_; ++row) {
-            if (!are_near(bounds[row], of_rank[q], reach, box)) continue;
+            if (!are_near(bounds[row], of_rank[q], range, box)) continue;
             sent[q].push_back(row);
             to[q].push_back(carried(rods, row));
         }

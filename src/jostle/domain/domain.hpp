@@ -42,9 +42,9 @@ public:
     void share_out(Rods& rods);
 
     /// Brings every rod to the rank whose part it is in, with all that it carries, in an order that keeps neighbours
-    /// near in memory, and then ghosts: all rods whose surfaces may be nearer than `reach` to one of this rank's.
+    /// near in memory, and then ghosts: all rods whose surfaces may be nearer than `range` to one of this rank's.
     /// `balance`: cuts are moved first. All ranks call it together, as they do the rest.
-    void gather(Rods& rods, const Box& box, double reach, bool balance);
+    void gather(Rods& rods, const Box& box, double range, bool balance);
 
     /// The rods and ghosts in these rows are left, in the order of `rows`, which begins with all own ones: the others
     /// have no neighbour here.
@@ -93,7 +93,7 @@ public:
     /// What has been gathered last, of this rank.
     struct Counts {
         std::size_t owned = 0, arrived = 0;  ///< own rods, and those that came from other ranks
-        std::size_t near = 0, ghosts = 0;    ///< rods within reach of the own ones, and those with a neighbour there
+        std::size_t near = 0, ghosts = 0;    ///< rods within range of the own ones, and those with a neighbour there
     };
     const Counts& counts() const { return counts_; }
 
@@ -106,7 +106,7 @@ private:
 
     Exchange& exchange_of(std::size_t bytes) const;
     void migrate(Rods& rods, const Box& box);
-    void fetch_ghosts(Rods& rods, const Box& box, double reach);
+    void fetch_ghosts(Rods& rods, const Box& box, double range);
     void note_ghosts(std::span<const std::uint32_t> from, const std::vector<std::vector<std::uint32_t>>& sent);
 
     Ranks ranks_;

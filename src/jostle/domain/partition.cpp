@@ -112,9 +112,9 @@ void Partition::balance(const Ranks& ranks, const Box& box, std::span<const Vec3
     while (true) {
         std::erase_if(parts, [](const Part& part) { return part.count == 1; });
         if (parts.empty()) return;
-        const std::size_t most_cuts = parts.back().cut + 1;  // the last of a level has the largest number
-        if (cuts_.size() < most_cuts) cuts_.resize(most_cuts);
-        std::vector<std::size_t> number(most_cuts, Level::none), part_of(centre.size(), Level::none);
+        const std::size_t max_cuts = parts.back().cut + 1;  // the last of a level has the largest number
+        if (cuts_.size() < max_cuts) cuts_.resize(max_cuts);
+        std::vector<std::size_t> number(max_cuts, Level::none), part_of(centre.size(), Level::none);
         for (std::size_t p = 0; p < parts.size(); ++p) number[parts[p].cut] = p;
         for (std::size_t i = 0; i < centre.size(); ++i)
             if (of_rod[i].count > 1) part_of[i] = number[of_rod[i].cut];

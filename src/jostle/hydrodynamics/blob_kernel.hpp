@@ -44,14 +44,14 @@ BlobFlow near_flow(double spread, double splitting, double viscosity, double squ
 /// left.
 class FlowTable {
 public:
-    /// flow(r^2) for r < reach; beyond it `at` must not be asked.
+    /// flow(r^2) for r < range; beyond it `at` must not be asked.
     template <class Flow>
-    FlowTable(double reach, std::size_t intervals, Flow&& flow)
-        : reach_(reach), per_square_(static_cast<double>(intervals) / (reach * reach)), pieces_(intervals) {
+    FlowTable(double range, std::size_t intervals, Flow&& flow)
+        : range_(range), per_square_(static_cast<double>(intervals) / (range * range)), pieces_(intervals) {
         for (std::size_t k = 0; k < intervals; ++k) pieces_[k] = piece(k, flow);
     }
 
-    double reach() const { return reach_; }
+    double range() const { return range_; }
 
     BlobFlow at(double squared_distance) const {
         const double place = squared_distance * per_square_;
@@ -95,7 +95,7 @@ private:
         return coefficients;
     }
 
-    double reach_, per_square_;  ///< intervals per length^2
+    double range_, per_square_;  ///< intervals per length^2
     std::vector<Piece> pieces_;
 };
 

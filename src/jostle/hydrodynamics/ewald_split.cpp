@@ -74,8 +74,8 @@ double cost(const EwaldSplit& split, const Box& box, const EwaldLoad& load) {
     const double density = load.rods / box.volume();
     const double length = load.longest_line, r = split.cutoff;
     // Spherocylinders of length 2 l and radius r about segments: the mean excluded volume of isotropic rods.
-    const double reach_volume = 4.0 / 3.0 * pi * r * r * r + 2.0 * pi * r * r * length + 0.5 * pi * r * length * length;
-    const double blocks = density * reach_volume;
+    const double range_volume = 4.0 / 3.0 * pi * r * r * r + 2.0 * pi * r * r * length + 0.5 * pi * r * length * length;
+    const double blocks = density * range_volume;
     const double points = double(split.grid[0]) * double(split.grid[1]) * double(split.grid[2]);
     const double spreading = std::pow(split.spread_points, 3.0) * for_spread_point;
     return load.rods * blocks * (for_block + for_blob_pair * load.blobs_per_rod * load.blobs_per_rod) +

@@ -9,7 +9,7 @@
 namespace jostle {
 
 /// Of any split, along a direction.
-inline constexpr std::size_t most_spread_points = 11;
+inline constexpr std::size_t max_spread_points = 11;
 
 /// How flows in a periodic box are split between pairs of rods and a grid (theory, section 7.3).
 struct EwaldSplit {

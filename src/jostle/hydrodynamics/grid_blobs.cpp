@@ -58,11 +58,11 @@ void GridBlobs::sort(const std::vector<Blob>& by_ids) {
     begin_.resize(grid_[2] + 1);
     for (std::size_t plane = 0; plane <= grid_[2]; ++plane) begin_[plane] = next[plane * grid_[1]];
     placed_.resize(by_ids.size());
-    place_of_.resize(by_ids.size());
+    placed_index_.resize(by_ids.size());
     for (std::size_t k = 0; k < by_ids.size(); ++k) {
         const std::size_t place = next[line_of(by_ids[k])]++;
         placed_[place] = by_ids[k];
-        place_of_[k] = static_cast<std::uint32_t>(place);
+        placed_index_[k] = static_cast<std::uint32_t>(place);
     }
 }
 
@@ -86,7 +86,7 @@ void GridBlobs::spread_blobs(std::vector<GridVector>& field, AddRow&& add_row) c
     parallel_for_parts(grid_[2], [&](std::size_t plane) {
         GridVector* const corner = field.data() + plane * in_plane;
         std::fill(corner, corner + in_plane, GridVector{});
-        std::array<std::size_t, most_spread_points> along_x{};
+        std::array<std::size_t, max_spread_points> along_x{};
         for (std::size_t z = 0; z < points_; ++z) {
             const std::size_t began = wrapped(plane + grid_[2] - z, 2);
             for (std::size_t blob = begin_[began]; blob < begin_[began + 1]; ++blob) {
@@ -105,7 +105,7 @@ void GridBlobs::spread(std::span<const LineVector> forces, std::vector<GridVecto
         const Blob& blob = placed_[k];
         const BlobLine& line = blobs_.of(blob.row);
         const LineVector& of_rod = forces[blob.row];
-        const Vec3 f = line.force_weight[blob.number] * of_rod.centre + line.lever_weight[blob.number] * of_rod.lever;
+        const Vec3 f = line.force_weight[blob.number] * of_rod.centre + line.moment_weight[blob.number] * of_rod.moment;
         force[k].lanes = GridVector::Lanes{f.x, f.y, f.z, 0.0};
     });
     spread_blobs(field, [&](std::size_t k, std::size_t y, std::size_t z, GridVector* row, const std::size_t* along_x) {
@@ -144,19 +144,19 @@ void GridBlobs::gather(const std::vector<GridVector>& field, std::span<LineVecto
         const BlobLine& line = blobs_.of(row);
         LineVector sum;
         for (std::size_t b = 0; b < line.place.size(); ++b) {
-            const Vec3& u = of_blobs[place_of_[first_blob_[k] + b]];
+            const Vec3& u = of_blobs[placed_index_[first_blob_[k] + b]];
             sum.centre += line.force_weight[b] * u;
-            sum.lever += line.lever_weight[b] * u;
+            sum.moment += line.moment_weight[b] * u;
         }
         velocities[row].centre += sum.centre;
-        velocities[row].lever += across(rods_.axis[row], sum.lever);
+        velocities[row].moment += across(rods_.axis[row], sum.moment);
     });
 }
 
 Vec3 GridBlobs::velocity_of(std::size_t blob, const std::vector<GridVector>& field) const {
     const std::array<std::uint32_t, 3>& first = placed_[blob].first;
     const double* const weight = of_blob(weights_, blob, 0);
-    std::array<std::size_t, most_spread_points> along_x{};
+    std::array<std::size_t, max_spread_points> along_x{};
     for (std::size_t p = 0; p < points_; ++p) along_x[p] = wrapped(first[0] + p, 0);
     GridVector velocity;
     for (std::size_t z = 0; z < points_; ++z)

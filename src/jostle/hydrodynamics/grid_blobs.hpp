@@ -61,12 +61,12 @@ private:
     std::array<std::size_t, 3> grid_;
     std::size_t points_;
     SpreadingKernel kernel_;
-    Vec3 per_length_;                      ///< points of the grid per length
-    std::vector<std::uint32_t> rows_;      ///< in the order of ids
-    std::vector<std::size_t> first_blob_;  ///< (N + 1) of the rods in this order
-    std::vector<std::uint32_t> place_of_;  ///< (blobs in this order) where each stands in `placed_`
-    std::vector<Blob> placed_;             ///< (blobs)
-    std::vector<std::size_t> begin_;       ///< (planes of equal z + 1) of the blobs that begin there
+    Vec3 per_length_;                          ///< points of the grid per length
+    std::vector<std::uint32_t> rows_;          ///< in the order of ids
+    std::vector<std::size_t> first_blob_;      ///< (N + 1) of the rods in this order
+    std::vector<std::uint32_t> placed_index_;  ///< (blobs in this order) where each stands in `placed_`
+    std::vector<Blob> placed_;                 ///< (blobs)
+    std::vector<std::size_t> begin_;           ///< (planes of equal z + 1) of the blobs that begin there
     Weights weights_;
 };
 

@@ -75,7 +75,7 @@ public:
     }
 
     void add_axial_flow(const AxialStresslets& stresslets, Velocities& velocities) const override {
-        if (blobs_.most_blobs() < 2 && stresslets.dipole.empty()) return;  // M does not depend on the axes of spheres
+        if (blobs_.max_blobs() < 2 && stresslets.dipole.empty()) return;  // M does not depend on the axes of spheres
         std::vector<LineVector> moved(rods().size());
         sums().near.add_axial_flow(stresslets, moved);
         if (sums().far) sums().far->add_axial_flow(stresslets, moved);
@@ -123,31 +123,31 @@ private:
                 blobs.rotational + rest.rotational};
     }
 
-    /// Square root of the near field times normal numbers. Levers are measured in lengths that make the two own
+    /// Square root of the near field times normal numbers. Moments are measured in lengths that make the two own
     /// mobilities of a rod alike, so that the iteration settles soon.
     std::vector<LineVector> near_noise(const RandomKey& key, double scale) const {
         const std::size_t count = rods().size();
-        std::vector<double> lever(count);
+        std::vector<double> length(count);
         std::vector<LineVector> xi(count);
         std::vector<Normals> normals(count);
         parallel_for_blocks(count, normals_at_a_time, [&](std::size_t, std::size_t begin, std::size_t end) {
             fill_normals(key, {rods().id.data() + begin, end - begin}, {normals.data() + begin, end - begin});
             for (std::size_t i = begin; i < end; ++i) {
                 const Normals& n = normals[i];
-                lever[i] = std::sqrt(of_rod(i).perpendicular / of_rod(i).rotational);
+                length[i] = std::sqrt(of_rod(i).perpendicular / of_rod(i).rotational);
                 xi[i] = {{n[0], n[1], n[2]}, across(rods().axis[i], {n[3], n[4], n[5]})};
             }
         });
         std::vector<LineVector> scaled(count);
         const auto matrix = [&](std::span<const LineVector> x, std::span<LineVector> result) {
-            parallel_for(count, [&](std::size_t i) { scaled[i] = {x[i].centre, lever[i] * x[i].lever}; });
+            parallel_for(count, [&](std::size_t i) { scaled[i] = {x[i].centre, length[i] * x[i].moment}; });
             sums().near.apply(scaled, result);
-            parallel_for(count, [&](std::size_t i) { result[i].lever *= lever[i]; });
+            parallel_for(count, [&](std::size_t i) { result[i].moment *= length[i]; });
         };
         std::vector<LineVector> noise = times_square_root(matrix, std::move(xi), noise_change_);
         parallel_for(count, [&](std::size_t i) {
             noise[i].centre *= scale;
-            noise[i].lever *= scale / lever[i];
+            noise[i].moment *= scale / length[i];
         });
         return noise;
     }
@@ -156,14 +156,14 @@ private:
     double coupling(const PairOfPoints& points) const {
         const BlobLine &line_i = blobs_.of(points.i), &line_j = blobs_.of(points.j);
         const Vec3 &axis_i = rods().axis[points.i], &axis_j = rods().axis[points.j];
-        const Vec3 lever_i = points.arm_i * across(axis_i, points.normal);
-        const Vec3 lever_j = points.arm_j * across(axis_j, points.normal);
+        const Vec3 moment_i = points.arm_i * across(axis_i, points.normal);
+        const Vec3 moment_j = points.arm_j * across(axis_j, points.normal);
         const Vec3 apart = points.arm_i * axis_i + points.distance * points.normal - points.arm_j * axis_j;
         double sum = 0.0;
         for (std::size_t b = 0; b < line_i.place.size(); ++b) {
-            const Vec3 force = line_i.force_weight[b] * points.normal + line_i.lever_weight[b] * lever_i;
+            const Vec3 force = line_i.force_weight[b] * points.normal + line_i.moment_weight[b] * moment_i;
             for (std::size_t c = 0; c < line_j.place.size(); ++c) {
-                const Vec3 on_j = line_j.force_weight[c] * points.normal + line_j.lever_weight[c] * lever_j;
+                const Vec3 on_j = line_j.force_weight[c] * points.normal + line_j.moment_weight[c] * moment_j;
                 const Vec3 r = apart + line_j.place[c] * axis_j - line_i.place[b] * axis_i;
                 sum += dot(on_j, flows_->unbounded.at(squared_norm(r)).of(r, force));
             }
@@ -174,13 +174,13 @@ private:
     void set(std::span<const LineVector> moved, Velocities& velocities) const {
         parallel_for(moved.size(), [&](std::size_t i) {
             velocities.linear[i] = moved[i].centre;
-            velocities.angular[i] = cross(rods().axis[i], moved[i].lever);
+            velocities.angular[i] = cross(rods().axis[i], moved[i].moment);
         });
     }
     void add(std::span<const LineVector> moved, Velocities& velocities) const {
         parallel_for(moved.size(), [&](std::size_t i) {
             velocities.linear[i] += moved[i].centre;
-            velocities.angular[i] += cross(rods().axis[i], moved[i].lever);
+            velocities.angular[i] += cross(rods().axis[i], moved[i].moment);
         });
     }
 
@@ -224,10 +224,10 @@ void require_known_box(const Rods& rods, const Box& box) {
                "flows are known in a box that is periodic along all directions, or along none, for mobility.model = "
                "\"hydrodynamic\"",
                "all true, or all false");
-    if (!x && rods.size() > most_rods_in_open_box)
+    if (!x && rods.size() > max_rods_in_open_box)
         refuse("rods.count", fmt::format("{}", rods.size()),
                "in an open box every pair of rods is summed for mobility.model = \"hydrodynamic\"",
-               fmt::format("at most {}", most_rods_in_open_box), "Make the box periodic");
+               fmt::format("at most {}", max_rods_in_open_box), "Make the box periodic");
 }
 
 }  // namespace
@@ -249,7 +249,7 @@ std::unique_ptr<const MobilityOperator> HydrodynamicMobility::at(const Rods& rod
     if (box.is_periodic() && rods.size() > 0)
         split = ewald_split(tolerance_, cutoff_, box,
                             {.rods = static_cast<double>(rods.size()),
-                             .blobs_per_rod = static_cast<double>(blobs.most_blobs()),
+                             .blobs_per_rod = static_cast<double>(blobs.max_blobs()),
                              .longest_line = 2.0 * blobs.longest_half(),
                              .spread = blobs.spread()});
     if (!flows || !flows->fit(blobs, box, split)) {

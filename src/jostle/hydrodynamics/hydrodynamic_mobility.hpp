@@ -10,7 +10,7 @@
 namespace jostle {
 
 /// More rods than this are not coupled in an open box: there every pair is kept, and each application passes over all.
-inline constexpr std::size_t most_rods_in_open_box = 2000;
+inline constexpr std::size_t max_rods_in_open_box = 2000;
 
 struct FluidFlows;
 class FourierGrid;
@@ -28,7 +28,7 @@ public:
     explicit HydrodynamicMobility(double viscosity, double tolerance = 1e-3,
                                   std::optional<double> cutoff = std::nullopt);
 
-    /// Errors: InputError for a box that is periodic along some directions only, for more than `most_rods_in_open_box`
+    /// Errors: InputError for a box that is periodic along some directions only, for more than `max_rods_in_open_box`
     /// rods in an open one, and for rods that `blobs_of` refuses. The operator sets up its sums when first applied.
     std::unique_ptr<const MobilityOperator> at(const Rods& rods, const Box& box) const override;
 

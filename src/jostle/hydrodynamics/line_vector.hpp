@@ -4,14 +4,14 @@
 
 namespace jostle {
 
-/// Force and lever on a rod: the torque is axis x lever. Or the velocity of its centre, and W = Omega x axis. `lever`
-/// is at right angles to the axis.
+/// Force and moment on a rod: the torque is axis x moment. Or the velocity of its centre, and W = Omega x axis.
+/// `moment` is at right angles to the axis.
 struct LineVector {
-    Vec3 centre, lever;
+    Vec3 centre, moment;
 
     LineVector& operator+=(const LineVector& other) {
         centre += other.centre;
-        lever += other.lever;
+        moment += other.moment;
         return *this;
     }
 };

@@ -57,7 +57,7 @@ NearField::NearField(const Rods& rods, const Box& box, const RodBlobs& blobs, co
     parallel_for(pairs_.size(), [&](std::size_t p) {
         const SideBlocks of_i = blocks_of(pairs_[p]);
         blocks_[place[2 * p]] = of_i;
-        blocks_[place[2 * p + 1]] = {of_i.centre_centre, of_i.lever_centre, of_i.centre_lever, of_i.lever_lever};
+        blocks_[place[2 * p + 1]] = {of_i.centre_centre, of_i.moment_centre, of_i.centre_moment, of_i.moment_moment};
     });
 }
 
@@ -89,10 +89,10 @@ void NearField::find_pairs(const Box& box) {
 /// Whether two blobs are nearer than the cutoff.
 bool NearField::meet(const PairKey& key) const {
     const BlobLine &line_i = blobs_.of(key.i), &line_j = blobs_.of(key.j);
-    const Vec3 apart = between(key);
-    const double cutoff = flow_.cutoff(), reach = cutoff + line_i.half() + line_j.half();
+    const Vec3 apart = centre_separation(key);
+    const double cutoff = flow_.cutoff(), range = cutoff + line_i.half() + line_j.half();
     const double squared = squared_norm(apart);
-    if (!(squared < reach * reach)) return false;
+    if (!(squared < range * range)) return false;
     const double on_i = 2.0 * dot(apart, rods_.axis[key.i]), on_j = 2.0 * dot(apart, rods_.axis[key.j]);
     const double cosine = 2.0 * dot(rods_.axis[key.i], rods_.axis[key.j]);
     for (const double s_i : line_i.place)
@@ -103,11 +103,11 @@ bool NearField::meet(const PairKey& key) const {
 
 NearField::SideBlocks NearField::blocks_of(const PairKey& key) const {
     const BlobLine &line_i = blobs_.of(key.i), &line_j = blobs_.of(key.j);
-    const Vec3 apart = between(key), axis_i = rods_.axis[key.i], axis_j = rods_.axis[key.j];
+    const Vec3 apart = centre_separation(key), axis_i = rods_.axis[key.i], axis_j = rods_.axis[key.j];
     const double squared_cutoff = flow_.cutoff() * flow_.cutoff();
-    SymmetricSum centre_centre, centre_lever, lever_centre, lever_lever;
+    SymmetricSum centre_centre, centre_moment, moment_centre, moment_moment;
     for (std::size_t c = 0; c < line_j.place.size(); ++c) {
-        SymmetricSum on_centre, on_lever;  // of i, from blob c of j
+        SymmetricSum on_centre, on_moment;  // of i, from blob c of j
         const Vec3 to_blob = apart + line_j.place[c] * axis_j;
         for (std::size_t b = 0; b < line_i.place.size(); ++b) {
             const Vec3 r = to_blob - line_i.place[b] * axis_i;
@@ -115,22 +115,22 @@ NearField::SideBlocks NearField::blocks_of(const PairKey& key) const {
             if (!(squared < squared_cutoff)) continue;
             const BlobFlow flow = flow_.at(squared);
             on_centre.add(line_i.force_weight[b], flow, r);
-            on_lever.add(line_i.lever_weight[b], flow, r);
+            on_moment.add(line_i.moment_weight[b], flow, r);
         }
         for (std::size_t k = 0; k < 6; ++k) {
             centre_centre.m[k] += line_j.force_weight[c] * on_centre.m[k];
-            centre_lever.m[k] += line_j.lever_weight[c] * on_centre.m[k];
-            lever_centre.m[k] += line_j.force_weight[c] * on_lever.m[k];
-            lever_lever.m[k] += line_j.lever_weight[c] * on_lever.m[k];
+            centre_moment.m[k] += line_j.moment_weight[c] * on_centre.m[k];
+            moment_centre.m[k] += line_j.force_weight[c] * on_moment.m[k];
+            moment_moment.m[k] += line_j.moment_weight[c] * on_moment.m[k];
         }
     }
-    return {centre_centre.rounded(), centre_lever.rounded(), lever_centre.rounded(), lever_lever.rounded()};
+    return {centre_centre.rounded(), centre_moment.rounded(), moment_centre.rounded(), moment_moment.rounded()};
 }
 
 /// What the two rods of the pair get from stresslets on each other.
 std::array<LineVector, 2> NearField::flows_of(const PairKey& key, const AxialStresslets& stresslets) const {
     const BlobLine &line_i = blobs_.of(key.i), &line_j = blobs_.of(key.j);
-    const Vec3 apart = between(key), axis_i = rods_.axis[key.i], axis_j = rods_.axis[key.j];
+    const Vec3 apart = centre_separation(key), axis_i = rods_.axis[key.i], axis_j = rods_.axis[key.j];
     const double squared_cutoff = flow_.cutoff() * flow_.cutoff();
     LineVector on_i, on_j;
     for (std::size_t b = 0; b < line_i.place.size(); ++b) {
@@ -147,10 +147,10 @@ std::array<LineVector, 2> NearField::flows_of(const PairKey& key, const AxialStr
             velocity += blob_j.force * flow.flow.of(r, axis_j) + blob_j.dipole * flow.along(r, axis_j);
             const Vec3 of_j = blob_i.force * flow.flow.of(r, axis_i) - blob_i.dipole * flow.along(r, axis_i);
             on_j.centre += line_j.force_weight[c] * of_j;
-            on_j.lever += line_j.lever_weight[c] * of_j;
+            on_j.moment += line_j.moment_weight[c] * of_j;
         }
         on_i.centre += line_i.force_weight[b] * velocity;
-        on_i.lever += line_i.lever_weight[b] * velocity;
+        on_i.moment += line_i.moment_weight[b] * velocity;
     }
     return {on_i, on_j};
 }
@@ -192,7 +192,7 @@ void NearField::gather(std::span<LineVector> velocities, Received&& received) co
         LineVector sum;
         for (std::size_t entry = begin_[i]; entry < begin_[i + 1]; ++entry) received(entry, sum);
         velocities[i].centre += sum.centre;
-        velocities[i].lever += across(rods_.axis[i], sum.lever);
+        velocities[i].moment += across(rods_.axis[i], sum.moment);
     });
 }
 
@@ -201,15 +201,15 @@ void NearField::apply(std::span<const LineVector> forces, std::span<LineVector> 
         const RodMobility& own = own_[blobs_.line_of[i]];
         const Vec3 &axis = rods_.axis[i], &force = forces[i].centre;
         velocities[i] = {own.perpendicular * force + ((own.parallel - own.perpendicular) * dot(axis, force)) * axis,
-                         own.rotational * forces[i].lever};
+                         own.rotational * forces[i].moment};
     });
     gather(velocities, [&](std::size_t entry, LineVector& sum) {
         const SideBlocks& blocks = blocks_[entry];
         const LineVector& other = forces[others_[entry]];
         add_product(blocks.centre_centre, other.centre, sum.centre);
-        add_product(blocks.centre_lever, other.lever, sum.centre);
-        add_product(blocks.lever_centre, other.centre, sum.lever);
-        add_product(blocks.lever_lever, other.lever, sum.lever);
+        add_product(blocks.centre_moment, other.moment, sum.centre);
+        add_product(blocks.moment_centre, other.centre, sum.moment);
+        add_product(blocks.moment_moment, other.moment, sum.moment);
     });
 }
 

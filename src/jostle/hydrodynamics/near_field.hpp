@@ -35,7 +35,7 @@ private:
     using Block = std::array<float, 6>;
     /// Of one side of a pair: what the rod gets (first) from what acts on the other (then).
     struct SideBlocks {
-        Block centre_centre, centre_lever, lever_centre, lever_lever;
+        Block centre_centre, centre_moment, moment_centre, moment_moment;
     };
 
     void find_pairs(const Box& box);
@@ -43,7 +43,7 @@ private:
     bool meet(const PairKey& key) const;
     SideBlocks blocks_of(const PairKey& key) const;
     std::array<LineVector, 2> flows_of(const PairKey& key, const AxialStresslets& stresslets) const;
-    Vec3 between(const PairKey& key) const {
+    Vec3 centre_separation(const PairKey& key) const {
         return rods_.centre[key.j] + box_.displacement(key.image) - rods_.centre[key.i];
     }
     template <class Received>

@@ -14,8 +14,8 @@ namespace jostle {
 class PairFlow {
 public:
     static PairFlow unbounded(double spread, double viscosity) {
-        const double reach = 12.0 * std::sqrt(spread);  // where erfc(r/(2 sqrt(spread))) is below 1e-16
-        return {reach, spread, viscosity, std::numeric_limits<double>::infinity(),
+        const double range = 12.0 * std::sqrt(spread);  // where erfc(r/(2 sqrt(spread))) is below 1e-16
+        return {range, spread, viscosity, std::numeric_limits<double>::infinity(),
                 [=](double squared) { return stokes_flow(spread, viscosity, squared); }};
     }
     static PairFlow near(double spread, double splitting, double viscosity, double cutoff) {
@@ -27,19 +27,19 @@ public:
     double cutoff() const { return cutoff_; }
 
     BlobFlow at(double squared_distance) const {
-        return squared_distance < squared_reach_ ? table_.at(squared_distance) : of_points(squared_distance).flow;
+        return squared_distance < squared_range_ ? table_.at(squared_distance) : of_points(squared_distance).flow;
     }
     BlobFlowSlope with_slope(double squared_distance) const {
-        return squared_distance < squared_reach_ ? table_.with_slope(squared_distance) : of_points(squared_distance);
+        return squared_distance < squared_range_ ? table_.with_slope(squared_distance) : of_points(squared_distance);
     }
 
 private:
     static constexpr std::size_t intervals = 4096;
 
     template <class Flow>
-    PairFlow(double reach, double spread, double viscosity, double cutoff, Flow&& flow)
-        : table_(reach, intervals, flow),
-          squared_reach_(reach * reach),
+    PairFlow(double range, double spread, double viscosity, double cutoff, Flow&& flow)
+        : table_(range, intervals, flow),
+          squared_range_(range * range),
           spread_(spread),
           viscosity_(viscosity),
           cutoff_(cutoff) {}
@@ -53,7 +53,7 @@ private:
     }
 
     FlowTable table_;
-    double squared_reach_, spread_, viscosity_, cutoff_;
+    double squared_range_, spread_, viscosity_, cutoff_;
 };
 
 }  // namespace jostle

@@ -83,11 +83,11 @@ void find_weights(BlobLine& line, double spread) {
     Eigen::VectorXd turned = across.ldlt().solve(place);
     if (blobs > 1) turned /= turned.dot(place);
     line.force_weight.resize(line.place.size());
-    line.lever_weight.resize(line.place.size());
+    line.moment_weight.resize(line.place.size());
     for (Eigen::Index b = 0; b < blobs; ++b) {  // exactly even, and odd, along the line
         const auto at = static_cast<std::size_t>(b);
         line.force_weight[at] = 0.5 * (pushed(b) + pushed(blobs - 1 - b)) / pushed.sum();
-        line.lever_weight[at] = 0.5 * (turned(b) - turned(blobs - 1 - b));
+        line.moment_weight[at] = 0.5 * (turned(b) - turned(blobs - 1 - b));
     }
 }
 
@@ -159,7 +159,7 @@ bool BlobLines::fit(double diameter_of_rods, const std::vector<double>& lengths)
                       [](const BlobLine& line, double length) { return line.length == length; });
 }
 
-std::size_t RodBlobs::most_blobs() const {
+std::size_t RodBlobs::max_blobs() const {
     std::size_t most = 0;
     for (const BlobLine& line : lines()) most = std::max(most, line.place.size());
     return most;

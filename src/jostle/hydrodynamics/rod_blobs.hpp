@@ -15,16 +15,16 @@ inline constexpr double longest_line_of_blobs = 20.0;
 
 /// A rod of one length as the fluid feels it: a line of Gaussian blobs of force (theory, eq. 7.1).
 ///
-/// A force F and a lever l (the torque is n x l) on the rod put the force force_weight F + lever_weight l_perp on each
-/// blob; its velocity follows from theirs by the same weights. These are the tractions of the isolated rod, so that the
-/// rod's own mobility is that of its line of blobs plus `remainder`.
+/// A force F and a moment l (the torque is n x l) on the rod put the force force_weight F + moment_weight l_perp on
+/// each blob; its velocity follows from theirs by the same weights. These are the tractions of the isolated rod, so
+/// that the rod's own mobility is that of its line of blobs plus `remainder`.
 struct BlobLine {
     double length = 0.0;
-    std::vector<double> place;         ///< (blobs) along the axis, from the centre; a length
-    std::vector<double> force_weight;  ///< (blobs) add up to 1
-    std::vector<double> lever_weight;  ///< (blobs) 1/length; 0 of spheres
-    RodMobility own;                   ///< of a spherocylinder alone in an unbounded fluid (theory, eq. 2.19)
-    RodMobility remainder;             ///< own less that of the line of blobs, >= 0
+    std::vector<double> place;          ///< (blobs) along the axis, from the centre; a length
+    std::vector<double> force_weight;   ///< (blobs) add up to 1
+    std::vector<double> moment_weight;  ///< (blobs) 1/length; 0 of spheres
+    RodMobility own;                    ///< of a spherocylinder alone in an unbounded fluid (theory, eq. 2.19)
+    RodMobility remainder;              ///< own less that of the line of blobs, >= 0
 
     double half() const { return place.back(); }  ///< from the centre to the last blob
 };
@@ -46,7 +46,7 @@ struct RodBlobs {
     const BlobLine& of(std::size_t row) const { return kinds->lines[line_of[row]]; }
     const std::vector<BlobLine>& lines() const { return kinds->lines; }
     double spread() const { return kinds->spread; }
-    std::size_t most_blobs() const;
+    std::size_t max_blobs() const;
     double longest_half() const { return lines().empty() ? 0.0 : lines().back().half(); }
 };
 
@@ -65,7 +65,7 @@ RodMobility mobility_of_blobs(const BlobLine& line, Kernel&& kernel) {
             const double weight = line.force_weight[b] * line.force_weight[c];
             sum.parallel += weight * (flow.isotropic + flow.radial * apart * apart);
             sum.perpendicular += weight * flow.isotropic;
-            sum.rotational += line.lever_weight[b] * line.lever_weight[c] * flow.isotropic;
+            sum.rotational += line.moment_weight[b] * line.moment_weight[c] * flow.isotropic;
         }
     return sum;
 }

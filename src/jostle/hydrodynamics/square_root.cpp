@@ -9,18 +9,18 @@ namespace jostle {
 
 namespace {
 
-constexpr std::size_t most_applications = 100;
+constexpr std::size_t max_applications = 100;
 
 double inner_product(std::span<const LineVector> a, std::span<const LineVector> b) {
     return parallel_sum<double>(
-        a.size(), [&](std::size_t i) { return dot(a[i].centre, b[i].centre) + dot(a[i].lever, b[i].lever); });
+        a.size(), [&](std::size_t i) { return dot(a[i].centre, b[i].centre) + dot(a[i].moment, b[i].moment); });
 }
 
 /// a += factor b
 void add_multiple(std::span<LineVector> a, double factor, std::span<const LineVector> b) {
     parallel_for(a.size(), [&](std::size_t i) {
         a[i].centre += factor * b[i].centre;
-        a[i].lever += factor * b[i].lever;
+        a[i].moment += factor * b[i].moment;
     });
 }
 
@@ -66,7 +66,7 @@ std::vector<LineVector> times_square_root(const LineOperator& matrix, std::vecto
         combination = first_column_of_root(diagonal, beside);
         const double rest = std::sqrt(inner_product(next, next));
         const bool complete = !(rest > 1e-12 * diagonal.front());
-        if (complete || has_settled(combination, before, relative_change) || basis.size() == most_applications) break;
+        if (complete || has_settled(combination, before, relative_change) || basis.size() == max_applications) break;
         before = combination;
         beside.push_back(rest);
         basis.push_back(multiple(1.0 / rest, next));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/schedule.hpp"
 
 namespace jostle {
@@ -14,7 +15,7 @@ constexpr double a_decade = 20.0;
 
 std::uint64_t automatic_period(const Scene& scene, double time_step, double rods) {
     const double time = expected_equilibration(scene) + scene.time.production;
-    if (scene.growth.rate > 0.0) rods = static_cast<double>(scene.rods.count);  // the same when a run goes on
+    if (grows(scene)) rods = static_cast<double>(scene.rods.count);  // the same when a run goes on
     const double frames = std::clamp(max_rods_in_frames / std::max(rods, 1.0), least_frames, wanted_frames);
     return static_cast<std::uint64_t>(std::clamp(std::round(time / time_step / frames), 1.0, 1e15));
 }

@@ -50,7 +50,7 @@ Due Measurement::add(const StepReport& report, const Simulation& simulation) {
     const Due now = {due(output.series_every), due(output.field_every), frame_steps_.is_due(simulation.clock().step),
                      due(output.checkpoint_every)};
     if (now.row) {
-        sums_.look_at_swimmers(scene_, simulation);
+        sums_.measure_swimmers(scene_, simulation);
         const std::vector<double> row = series_columns_.row(RowState(simulation, sums_));
         for (std::size_t k = 0; k < row.size(); ++k) series_.columns[k].push_back(row[k]);
         sums_.start_row();

@@ -102,7 +102,7 @@ ProductionWindow production_window(const Scene& scene, const SeriesTable& series
         window.equilibration_time = window.first_row == 0 ? begin : time[window.first_row - 1];
         found = by_pressure.reached;
     }
-    if (scene.growth.rate > 0.0) {
+    if (grows(scene)) {
         window.equilibrium.reason = "the number of cells changes";
         return window;
     }

@@ -118,7 +118,7 @@ void StepSums::add_to_field(const Simulation& simulation) {
     if (domain.ranks().rank() == 0) field->add(moments, all, temperature);
 }
 
-void StepSums::look_at_swimmers(const Scene& scene, const Simulation& simulation) {
+void StepSums::measure_swimmers(const Scene& scene, const Simulation& simulation) {
     if (!active_stress) return;
     const Rods& swimmers = simulation.rods();
     const Domain& domain = simulation.domain();

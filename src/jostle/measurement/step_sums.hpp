@@ -43,7 +43,7 @@ struct StepSums {
     /// Adds a step that was just made.
     void add(const StepReport& report, const Simulation& simulation);
     /// Measures the active stress, where rods swim; due at every row.
-    void look_at_swimmers(const Scene& scene, const Simulation& simulation);
+    void measure_swimmers(const Scene& scene, const Simulation& simulation);
     void start_row();
 
     /// Leaves to each rank its share of what belongs to rods, before the simulation is shared.

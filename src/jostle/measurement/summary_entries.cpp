@@ -1,5 +1,7 @@
 #include "jostle/measurement/summary_entries.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -61,6 +63,10 @@ Json described(const EquilibriumCheck& check) {
     entry["rotation_times"] = if_any(check.rotation_times);
     entry["diffusion_times"] = if_any(check.diffusion_times);
     return entry;
+}
+
+double without_rounding(double value) {
+    return std::stod(fmt::format("{:.12g}", value));
 }
 
 Json tensor_entry(const Columns& columns, const std::string& unit) {

@@ -35,6 +35,9 @@ nlohmann::ordered_json described(const EquilibriumCheck& check);
 /// A number, or null.
 nlohmann::ordered_json optional_number(const std::optional<double>& value);
 
+/// 0.3, where the volumes of rods and box give 0.3000000000000014.
+double without_rounding(double value);
+
 /// Mean and standard error of each of nine columns, by rows of the tensor.
 nlohmann::ordered_json tensor_entry(const Columns& columns, const std::string& unit);
 

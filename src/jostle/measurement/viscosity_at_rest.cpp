@@ -26,7 +26,7 @@ constexpr double least_rows_a_rotation = 12.0;
 
 /// What the formula does not hold for, or has not been tested on; empty where it does.
 std::string why_not(const Scene& scene, const Simulation& simulation) {
-    if (scene.growth.rate > 0.0) return "the cells grow";
+    if (grows(scene)) return "the cells grow";
     if (flows(scene)) return "the rods are in a flow, whose viscosity is in the entry \"flow\"";
     if (has_schedule(scene)) return "a schedule changes the conditions";
     if (!simulation.keeps_equilibrium()) return "something drives the rods, so that they are not in equilibrium";

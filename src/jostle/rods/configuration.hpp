@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "jostle/math/rotation.hpp"
 #include "jostle/math/vec3.hpp"
 
 namespace jostle {
@@ -18,5 +19,14 @@ struct Configuration {
         axis.resize(count);
     }
 };
+
+/// Where a rod is that moves with this velocity for so long, and this angular velocity: q + U t, the axis by the
+/// exponential map (theory 2.4).
+inline Vec3 centre_after(const Vec3& centre, const Vec3& velocity, double time) {
+    return centre + time * velocity;
+}
+inline Vec3 axis_after(const Vec3& axis, const Vec3& angular_velocity, double time) {
+    return rotated(axis, time * angular_velocity);
+}
 
 }  // namespace jostle

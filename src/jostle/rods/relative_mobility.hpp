@@ -32,8 +32,8 @@ template <class Points>
 double relative_mobility(const Points& points, const MobileRod& i, const MobileRod& j) {
     if (points.i == points.j) {  // own image: the centre stays, only turning opens the gap
         const double along = dot(points.normal, i.axis);
-        const double lever = points.arm_j - points.arm_i;
-        return lever * lever * i.mobility.rotational * (squared_norm(points.normal) - along * along);
+        const double arm = points.arm_j - points.arm_i;
+        return arm * arm * i.mobility.rotational * (squared_norm(points.normal) - along * along);
     }
     return point_mobility(i, points.normal, points.arm_i) + point_mobility(j, points.normal, points.arm_j);
 }

@@ -134,7 +134,7 @@ void validate_pressure(const Scene& scene) {
         not_with(!scene.box.periodic[k] && !walled[k], "the box is open, and nothing holds the rods",
                  "Make the box periodic along all directions but those that end at walls");
     not_with(has_flow(scene), "a flow shears the box, whose volume stays", "Keep one of the two");
-    not_with(scene.growth.rate > 0.0, "cells that grow change what fills the box", "Remove [growth], or [pressure]");
+    not_with(grows(scene), "cells that grow change what fills the box", "Remove [growth], or [pressure]");
     not_with(swims(scene), "the pressure of swimmers is not known from their contacts", "Remove self_propulsion");
     not_with(squeezes_box(scene), "a schedule sets the size of the box", "Keep one of the two");
     not_with(!scene.rods.fixed.empty(), "fixed rods stay where they are", "Remove rods.fixed");

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/units.hpp"
 
 namespace jostle {
@@ -66,7 +67,7 @@ ReadableUnit readable_unit(const Scene& scene, std::string_view unit) {
     Factors factors = factors_of(unit);
     const auto time =
         std::find_if(factors.begin(), factors.end(), [](const auto& f) { return f.first == "time_unit"; });
-    if (time == factors.end() || scene.growth.rate == 0.0) return {1.0, quotient(factors)};
+    if (time == factors.end() || !grows(scene)) return {1.0, quotient(factors)};
     const int power = time->second;
     factors.erase(time);
     multiply(factors, "D", power);

@@ -34,7 +34,7 @@ void check_one_flow(const Scene& scene) {
 }
 
 void check_motion_in_flow(const Scene& scene, const char* key, const std::string& value) {
-    if (scene.growth.rate > 0.0)
+    if (grows(scene))
         refuse(key, value, "shears rods that stay, and with growth.rate cells divide and die", "no flow, or no growth",
                "Remove [flow] or [growth]");
     if (swims(scene))

@@ -67,7 +67,7 @@ bool drifts(const Scene& scene) {
 
 bool keeps_equilibrium(const Scene& scene) {
     const auto motions = motions_of(scene);
-    return thermal_energy(scene) > 0.0 && scene.growth.rate == 0.0 && !flows(scene) &&
+    return thermal_energy(scene) > 0.0 && !grows(scene) && !flows(scene) &&
            std::all_of(motions.begin(), motions.end(), [](const auto& motion) { return motion->keeps_equilibrium(); });
 }
 

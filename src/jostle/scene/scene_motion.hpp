@@ -22,6 +22,11 @@ Swimming swimming_of(const Scene& scene);
 /// Whether its rods swim, now or later.
 bool swims(const Scene& scene);
 
+/// Whether its rods are cells that grow, divide and die.
+inline bool grows(const Scene& scene) {
+    return scene.growth.rate > 0.0;
+}
+
 /// Whether its swimmers stir the fluid (motion.force_dipole).
 bool stirs(const Scene& scene);
 

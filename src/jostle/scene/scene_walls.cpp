@@ -9,6 +9,7 @@
 #include "jostle/scene/number_text.hpp"
 #include "jostle/scene/scene_box.hpp"
 #include "jostle/scene/scene_keys.hpp"
+#include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/schedule.hpp"
 
 namespace jostle {
@@ -98,10 +99,9 @@ void check_room_of_rods(const Scene& scene, double rods_volume, double longest, 
                                "xyz"[k], rounded(edges[k]), rounded(thickest)),
                    fmt::format("more than {}", rounded(thickest)), "");
     const double most = longest_between(scene, room);
-    const bool grows = scene.growth.rate > 0.0;
-    const double length = std::max(longest, grows ? scene.growth.division_length : 0.0);
+    const double length = std::max(longest, grows(scene) ? scene.growth.division_length : 0.0);
     if (!(length <= most))
-        refuse(grows && length > longest ? "growth.division_length" : "rods.length", rounded(length),
+        refuse(grows(scene) && length > longest ? "growth.division_length" : "rods.length", rounded(length),
                fmt::format("does not fit between the walls in any direction: these leave {}", rounded(most)),
                fmt::format("at most {}", rounded(most)), "Enlarge the box, or use shorter rods");
     if (scene.rods.start != StartKind::aligned) return;

@@ -40,7 +40,7 @@ std::string unknown_step_error(const Scene& scene) {
     if (!scene.contact.brownian_correction) return "contact.brownian_correction = false";
     if (scene.contact.model != ContactModel::hard) return "rods are soft";
     if (swims(scene)) return "rods swim";
-    if (scene.growth.rate > 0.0) return "rods grow";
+    if (grows(scene)) return "rods grow";
     if (flows(scene)) return "there is a flow";
     if (scene.pressure.external) return "a pressure sets the volume";
     if (has_schedule(scene)) return "there is a [schedule]";

@@ -72,7 +72,7 @@ Rods cells_to_come(const Scene& scene, double diameter) {
 
 std::vector<StepLimit> growth_limits(const Scene& scene, double diameter) {
     const GrowthLaw& growth = scene.growth;
-    if (growth.rate == 0.0) return {};
+    if (!grows(scene)) return {};
     const double fastest = (1.0 + deviations_of_the_fastest * growth.rate_deviation) * growth.rate;
     std::vector<StepLimit> limits = {{.key = "growth.rate",
                                       .value = rounded(growth.rate),
@@ -300,7 +300,7 @@ StepLimit spring_limit(const Scene& scene, std::span<const Spring> springs, cons
 std::vector<StepLimit> free_step_limits(const Scene& scene, const Mobility& model, const Box& box, const Rods& rods) {
     const double thinnest = smallest_diameter(scene, rods);
     std::vector<StepLimit> limits = motion_limits(scene, model, box, rods);
-    if (scene.growth.rate > 0.0) append(limits, motion_limits(scene, model, box, cells_to_come(scene, thinnest)));
+    if (grows(scene)) append(limits, motion_limits(scene, model, box, cells_to_come(scene, thinnest)));
     append(limits, growth_limits(scene, thinnest));
     return limits;
 }

@@ -50,9 +50,9 @@ double time_step(const Scene& scene, const Mobility& model, const Box& box, cons
     }
     std::optional<double> diffusion;
     if (scene.time.accuracy) diffusion = rms_step_of_accuracy(*scene.time.accuracy, known_step_error(rods, box));
-    return automatic_step(scene.growth.rate > 0.0 ? lasting_step_limits(scene, model, box)
-                                                  : step_limits(scene, model, box, rods, springs),
-                          diffusion);
+    return automatic_step(
+        grows(scene) ? lasting_step_limits(scene, model, box) : step_limits(scene, model, box, rods, springs),
+        diffusion);
 }
 
 void require_short_step(std::span<const StepLimit> limits, double step) {

@@ -43,10 +43,10 @@ void check_box_of_fluid(const Scene& scene) {
             "box.periodic", fmt::format("[{}, {}, {}]", x, y, z),
             fmt::format("{} flows are known in a box that is periodic along all directions, or along none", with_fluid),
             "all true, or all false", "");
-    if (!x && scene.rods.count > most_rods_in_open_box)
+    if (!x && scene.rods.count > max_rods_in_open_box)
         refuse("rods.count", fmt::format("{}", scene.rods.count),
                fmt::format("{} every pair of rods is summed in an open box", with_fluid),
-               fmt::format("at most {}", most_rods_in_open_box), "Make the box periodic");
+               fmt::format("at most {}", max_rods_in_open_box), "Make the box periodic");
     const std::optional<double>& cutoff = scene.mobility.cutoff;
     const double diameter = scene.rods.diameter;
     if (cutoff && !(*cutoff >= least_cutoff * diameter && *cutoff <= largest_cutoff * diameter))
@@ -71,7 +71,7 @@ void check_motions(const Scene& scene) {
                    "{} the fluid would have to flow with a box that is squeezed, and other ramps have not been tried",
                    with_fluid),
                "no [schedule]", without_fluid);
-    if (scene.growth.rate > 0.0)
+    if (grows(scene))
         refuse("growth.rate", text(scene.growth.rate),
                fmt::format("{} what grows drives the fluid away, and this flow is not known", with_fluid), "0",
                without_fluid);

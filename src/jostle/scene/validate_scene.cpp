@@ -28,6 +28,7 @@
 #include "jostle/scene/unused_keys.hpp"
 #include "jostle/scene/validate_fluid.hpp"
 #include "jostle/scene/validate_plane.hpp"
+#include "jostle/scene/validate_schedule.hpp"
 
 namespace jostle {
 
@@ -101,25 +102,6 @@ void check_packing(const Scene& scene) {
                "Use start = \"aligned\" or \"lattice\", or a lower " + words);
 }
 
-/// Of all that a schedule makes of the box.
-void check_packing_of_schedule(const Scene& scene) {
-    if (!squeezes_box(scene)) return;
-    const double volume = rods_volume(scene), aspect_ratio = scene.rods.length / scene.rods.diameter;
-    const double densest = close_packing(aspect_ratio, dimensions_of(scene));
-    const char* words = fraction_words(scene);
-    for (const auto& [time, edges] : ramp_of_edges(scene, volume)) {
-        const double fraction = volume / volume_of(edges);
-        if (fraction <= densest * (1.0 + 1e-12)) continue;
-        refuse(
-            key_of_box_ramp(scene), "",
-            fmt::format("cannot be packed at time {}: it makes the {} {}, and the densest packing of rods of L/D = {} "
-                        "fills {}",
-                        time, words, rounded(fraction), rounded(aspect_ratio), rounded(densest)),
-            fmt::format("{} {} of at most {}", dimensions_of(scene) == 2 ? "an" : "a", words, rounded(densest)),
-            "Compress less");
-    }
-}
-
 /// Whether the rods of the scene have room in its box.
 void check_room(const Scene& scene) {
     check_deviations(scene);
@@ -127,32 +109,7 @@ void check_room(const Scene& scene) {
     validate_box(scene, rods_volume(scene), largest_diameter(scene));
     validate_walls(scene, rods_volume(scene), largest_length(scene), largest_diameter(scene));
     validate_sheared_box(scene, rods_volume(scene), largest_length(scene) + largest_diameter(scene));
-    check_packing_of_schedule(scene);
-}
-
-/// Whether a schedule of the box changes an edge, as far as the scene tells.
-bool squeezes_edge(const Scene& scene, int k) {
-    if (scene.schedule.edges.empty() || !scene.box.edges) return true;
-    return std::any_of(scene.schedule.edges.begin(), scene.schedule.edges.end(),
-                       [&](const RampPoint<Vec3>& point) { return point.value[k] != (*scene.box.edges)[k]; });
-}
-
-void check_schedule(const Scene& scene) {
-    if (!squeezes_box(scene)) return;
-    if (!scene.schedule.edges.empty() && !ramp_of_fraction(scene).empty())
-        refuse("schedule.edges", "",
-               fmt::format("is given beside schedule.{}", parts_of_key(fraction_key(scene)).second),
-               "one of the two, not both", "Keep one of them; the other follows from it");
-    const std::string key = key_of_box_ramp(scene);
-    if (scene.growth.rate > 0.0)
-        refuse(key, "", "changes the box, and with growth.rate cells change what fills it", "one of the two, not both",
-               "Remove [growth], or the key");
-    for (std::size_t k = 0; k < static_cast<std::size_t>(dimensions_of(scene)); ++k)
-        if (!scene.box.periodic[k] && !scene.walls.faces[k] && squeezes_edge(scene, static_cast<int>(k)))
-            refuse(key, "",
-                   fmt::format("changes edge {}, along which the box is open: nothing holds the rods", "xyz"[k]),
-                   "edges along which the box is periodic, or ends at planes (walls.faces)",
-                   "Keep that edge as box.edges has it, or make the box periodic along it");
+    validate_packing_of_schedule(scene);
 }
 
 void check_motion(const Scene& scene) {
@@ -190,7 +147,7 @@ double shortest_daughter(const Scene& scene, double diameter) {
 }
 
 void check_springs(const Scene& scene) {
-    if (!scene.springs.file.empty() && scene.growth.rate > 0.0)
+    if (!scene.springs.file.empty() && grows(scene))
         refuse("springs.file", scene.springs.file,
                "springs hold rods that stay, and with growth.rate cells divide and die", "no springs, or no growth",
                "Remove [springs] or [growth]");
@@ -247,7 +204,7 @@ void check_rms_step(const Scene& scene) {
         refuse("time.rms_step", text(*scene.time.rms_step),
                fmt::format("measures the step by the Brownian motion, and there is none: {}", reason), "",
                "Give time.step instead");
-    if (scene.growth.rate > 0.0)
+    if (grows(scene))
         refuse("time.rms_step", text(*scene.time.rms_step),
                "measures the step by the Brownian motion of rods, which changes as they grow", "",
                "Give time.step instead");
@@ -264,7 +221,9 @@ void check_accuracy(const Scene& scene) {
     if (const std::string reason = unknown_step_error(scene); !reason.empty())
         refuse("time.accuracy", text(*scene.time.accuracy),
                "needs to know the error that a step makes, which was measured for hard Brownian rods in equilibrium; "
-               "here " + reason, "", "Remove it, or give time.step or time.rms_step");
+               "here " +
+                   reason,
+               "", "Remove it, or give time.step or time.rms_step");
 }
 
 void check_time(const Scene& scene) {
@@ -273,7 +232,7 @@ void check_time(const Scene& scene) {
                fmt::format("is given beside time.step = {}", *scene.time.step), "one of the two, not both",
                "Keep one of them");
     const bool moves = thermal_energy(scene_at_its_hardest(scene)) > 0.0 || swims(scene) || squeezes_box(scene) ||
-                       scene.growth.rate > 0.0 || !scene.springs.file.empty() || scene.forces.on_rods != Vec3{} ||
+                       grows(scene) || !scene.springs.file.empty() || scene.forces.on_rods != Vec3{} ||
                        scene.forces.alignment_energy != 0.0 || flows(scene) || scene.pressure.external;
     if (!scene.time.step && !scene.time.rms_step && !moves)
         refuse("time.step", "", "is missing, and nothing in the scene moves that a step could be found from",
@@ -339,7 +298,7 @@ const std::vector<TogetherCheck>& together_checks() {
         {check_mobility, {"mobility", "rods"}},
         {validate_fluid, {"mobility", "rods", "box", "motion", "growth", "springs", "schedule", "contact", "solver"}},
         {validate_flow, {"flow", "box", "rods", "motion", "forces", "mobility", "growth", "schedule", "output"}},
-        {check_schedule, {"schedule", "box", "walls", "growth"}},
+        {validate_schedule, {"schedule", "box", "walls", "growth"}},
         {check_springs, {"springs", "growth"}},
         {check_fixed_rods, {"rods", "contact", "mobility", "schedule"}},
         {validate_pressure,
@@ -388,8 +347,7 @@ void validate_box(const Scene& scene, double rods_volume, double largest_diamete
 }
 
 void validate_contact_range(const Scene& scene, double longest) {
-    const bool grows = scene.growth.rate > 0.0;
-    const double cell = grows ? scene.growth.division_length + largest_diameter(scene) : 0.0;
+    const double cell = grows(scene) ? scene.growth.division_length + largest_diameter(scene) : 0.0;
     const double most = std::max(longest, cell);
     if (!scene.contact.range || *scene.contact.range <= most) return;
     refuse("contact.range", text(*scene.contact.range),
@@ -399,7 +357,7 @@ void validate_contact_range(const Scene& scene, double longest) {
 
 void validate_growth(const Scene& scene, double largest_diameter) {
     const GrowthLaw& growth = scene.growth;
-    if (growth.rate == 0.0) return;
+    if (!grows(scene)) return;
     if (!(growth.division_length > largest_diameter))
         refuse(
             "growth.division_length", text(growth.division_length),

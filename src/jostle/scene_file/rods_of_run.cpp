@@ -129,8 +129,7 @@ RodsOfRun rods_of_run(const Scene& scene, const std::filesystem::path& scene_pat
     if (there.units.system != scene.units.system)
         refuse_run(scene, "is a run in other units", "Set units.system as that run has it");
     const bool keeps_speeds = scene.motion.self_propulsion != 0.0 && swims_alike(scene, there);
-    if (keeps_speeds && last.state.rods.speed.empty() && there.motion.self_propulsion_deviation > 0.0 &&
-        there.growth.rate == 0.0)
+    if (keeps_speeds && last.state.rods.speed.empty() && there.motion.self_propulsion_deviation > 0.0 && !grows(there))
         last.state.rods.speed = SelfPropulsion(swimming_of(there)).speeds(last.state.rods, there.seed);
     if (!keeps_speeds) last.state.rods.speed.clear();
     Rods rods =

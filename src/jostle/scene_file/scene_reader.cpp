@@ -12,6 +12,7 @@
 #include "jostle/scene/mistakes.hpp"
 #include "jostle/scene/pressure_control.hpp"
 #include "jostle/scene/scene_keys.hpp"
+#include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/scene_ranges.hpp"
 #include "jostle/scene/unused_keys.hpp"
 #include "jostle/scene/validate_scene.hpp"
@@ -60,7 +61,7 @@ Mistakes find_missing(const TomlDocument& document, const Scene& scene, const Mi
         required.push_back({"fluid", "viscosity", "\"1e-3 Pa s\""});
         required.push_back({"fluid", "kT", "\"0.00411 pN um\""});
     }
-    if (scene.growth.rate > 0.0)
+    if (grows(scene))
         required.push_back(
             {"growth", "division_length", fmt::format("{:.6g}", 2.0 * scene.rods.length + scene.rods.diameter)});
     for (const auto& [table, name, example] : required)
@@ -209,7 +210,7 @@ Scene parse_scene(std::string_view text, std::string file_name) {
         placed.refuse_any();
     }
     // A growing population has no equilibrium to wait for.
-    const bool settles = scene.growth.rate == 0.0 && !compresses(scene);
+    const bool settles = !grows(scene) && !compresses(scene);
     if (!settles && !scene.time.equilibration) scene.time.equilibration = 0.0;
     return scene;
 }

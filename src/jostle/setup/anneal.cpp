@@ -53,10 +53,10 @@ public:
     Annealer(Rods& rods, const Box& box, std::uint64_t seed, const AnnealingWatch& watch)
         : rods_(rods), box_(box), seed_(seed), watch_(watch) {}
 
-    PushApartResult anneal() {
+    OverlapRemovalResult anneal() {
         rods_ = reordered(rods_, space_filling_order(rods_, box_));
         if (hinder_each_other(rods_)) let_overlap();
-        PushApartResult result = push_apart(rods_, box_, mobility_);
+        OverlapRemovalResult result = remove_overlaps(rods_, box_, mobility_);
         if (!result.apart) return result;
         shake(loosening);
         settle();
@@ -64,7 +64,7 @@ public:
         done_.Z = mean(Z_);
         done_.order = mean(order_);
         tell();
-        return push_apart(rods_, box_, mobility_);
+        return remove_overlaps(rods_, box_, mobility_);
     }
 
 private:
@@ -113,7 +113,7 @@ private:
             tell();
         }
         rods_ = simulation.rods();
-        if (!Z_.empty()) push_apart(rods_, box_, mobility_);
+        if (!Z_.empty()) remove_overlaps(rods_, box_, mobility_);
     }
 
     Simulation brownian(const Stretch& stretch) const {
@@ -130,8 +130,8 @@ private:
         motions.push_back(std::make_unique<BrownianMotion>(settings.kT, box_.dimensions()));
         // Random numbers of its own, far from those of the run.
         const Clock clock{(std::uint64_t{1} << 39) + static_cast<std::uint64_t>(done_.steps), 0.0};
-        return Simulation({box_, rods_, clock}, std::make_unique<DragMobility>(pushing_drag(true)), std::move(motions),
-                          settings);
+        return Simulation({box_, rods_, clock}, std::make_unique<DragMobility>(overlap_removal_drag(true)),
+                          std::move(motions), settings);
     }
 
     static double mean(std::span<const double> values) {
@@ -148,14 +148,14 @@ private:
     const Box& box_;
     std::uint64_t seed_;
     const AnnealingWatch& watch_;
-    DragMobility mobility_{pushing_drag(true)};
+    DragMobility mobility_{overlap_removal_drag(true)};
     Annealing done_;
     std::vector<double> Z_, order_;  ///< of the last stretch, step by step
 };
 
 }  // namespace
 
-PushApartResult anneal(Rods& rods, const Box& box, std::uint64_t seed, const AnnealingWatch& watch) {
+OverlapRemovalResult anneal(Rods& rods, const Box& box, std::uint64_t seed, const AnnealingWatch& watch) {
     return Annealer(rods, box, seed, watch).anneal();
 }
 

@@ -4,7 +4,7 @@
 
 #include "jostle/rods/box.hpp"
 #include "jostle/rods/rods.hpp"
-#include "jostle/setup/push_apart.hpp"
+#include "jostle/setup/remove_overlaps.hpp"
 
 namespace jostle {
 
@@ -35,6 +35,6 @@ using AnnealingWatch = std::function<void(const Annealing&)>;
 ///    drifts, and of 0.05 D, as contacts of a run are.
 /// Lengths of steps are in diameters of the thinnest rod. If rods stay overlapping, the result says so. Ids and sizes
 /// are kept, rows are not. The same bits for any number of threads.
-PushApartResult anneal(Rods& rods, const Box& box, std::uint64_t seed, const AnnealingWatch& watch);
+OverlapRemovalResult anneal(Rods& rods, const Box& box, std::uint64_t seed, const AnnealingWatch& watch);
 
 }  // namespace jostle

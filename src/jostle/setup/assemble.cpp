@@ -71,7 +71,7 @@ double present_kT(const Scene& scene, const Clock& clock, double time_step) {
 
 std::optional<StressField> make_field(const Scene& scene, const Box& box) {
     if (scene.output.field_every == 0) return std::nullopt;
-    const double longest = scene.growth.rate > 0.0 ? scene.growth.division_length : scene.rods.length;
+    const double longest = grows(scene) ? scene.growth.division_length : scene.rods.length;
     return StressField(box, scene.output.field_spacing.value_or(longest + scene.rods.diameter));
 }
 
@@ -126,7 +126,7 @@ Simulation assemble(const Scene& scene, State state) {
                              : scene.solver.step_rule == StepRule::bb2 ? BarzilaiBorwein::bb2
                                                                        : BarzilaiBorwein::alternating;
     if (has_flow(scene)) settings.flow = flow_of(scene);
-    if (scene.growth.rate > 0.0) settings.growth = scene.growth;
+    if (grows(scene)) settings.growth = scene.growth;
     return Simulation(std::move(state), std::move(model), motions_of(scene), settings);
 }
 

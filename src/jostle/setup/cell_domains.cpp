@@ -5,10 +5,10 @@ namespace jostle {
 CellDomains::CellDomains(const CellGrid& grid, const Box& box, const std::array<std::uint64_t, 3>& shift)
     : grid_(grid), box_(box) {
     for (std::size_t k = 0; k < 3; ++k) {
-        const int cells = grid.cells_along(k), reach = grid.reach_along(k);
+        const int cells = grid.cells_along(k), range = grid.range_along(k);
         // Across y, the slabs along x of a sheared box meet others than those beside them.
         const bool apart = box.periodic()[k] && (box.offset() == 0.0 || k == 2);
-        const int count = apart && cells >= 2 * reach ? cells / reach / 2 * 2 : 1;
+        const int count = apart && cells >= 2 * range ? cells / range / 2 * 2 : 1;
         const int begin = count > 1 ? static_cast<int>(shift[k] % static_cast<std::uint64_t>(cells)) : 0;
         Slabs& slabs = slabs_[k];
         for (std::int64_t slab = 0; slab <= count; ++slab)
@@ -25,7 +25,7 @@ CellDomains::CellDomains(const CellGrid& grid, const Box& box, const std::array<
 }
 
 std::size_t CellDomains::domain_of(const Vec3& centre) const {
-    const auto place = grid_.place_of(grid_.cell_of(centre));
+    const auto place = grid_.indices_of(grid_.cell_of(centre));
     const auto slab = [&](std::size_t k) { return slabs_[k].of_cell[static_cast<std::size_t>(place[k])]; };
     return (slab(2) * slabs_[1].count() + slab(1)) * slabs_[0].count() + slab(0);
 }

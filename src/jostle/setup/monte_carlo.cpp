@@ -128,8 +128,8 @@ MonteCarlo::Trial MonteCarlo::shift(std::uint32_t row, std::uint32_t draw) const
         const double step = up_to(half + 0.5 * diameter);
         return {rods_.centre[row] + (size[2] < 0.5 ? -step : step) * axis, axis};
     }
-    const double reach = half + 0.5 * diameter;
-    return {rods_.centre[row], normalised(axis + up_to(reach) / reach * anywhere)};
+    const double extent = half + 0.5 * diameter;
+    return {rods_.centre[row], normalised(axis + up_to(extent) / extent * anywhere)};
 }
 
 /// Whether a rod would leave its domain, or an open box or a wall, or reach into a fixed rod, or get farther away from

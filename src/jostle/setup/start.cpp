@@ -23,12 +23,12 @@ namespace {
 constexpr double file_overlap = 1e-3;
 
 Rods at_random(Rods rods, const Box& box, bool turning, const Scene& scene, const AnnealingWatch& watch) {
-    PushApartResult result;
+    OverlapRemovalResult result;
     result.overlap = largest_overlap(rods, box);
     if (result.overlap > 0.0 && turning)
         result = anneal(rods, box, scene.seed, watch);
     else
-        result = push_apart(rods, box, DragMobility(pushing_drag(turning)));
+        result = remove_overlaps(rods, box, DragMobility(overlap_removal_drag(turning)));
     if (!result.apart) {
         throw InputError({.key = "rods.start",
                           .value = turning ? "\"random\"" : "\"aligned\"",

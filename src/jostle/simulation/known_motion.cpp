@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "jostle/math/rotation.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
@@ -81,8 +80,8 @@ void find_known_motion(const State& state, std::span<const std::unique_ptr<Motio
     known.displacement.resize(rods.size());
     std::vector<Vec3>&centre = known.end.centre, &axis = known.end.axis;
     parallel_for(rods.size(), [&](std::size_t i) {
-        centre[i] = rods.centre[i] + context.time_step * linear[i];
-        axis[i] = rotated(rods.axis[i], context.time_step * angular[i]);
+        centre[i] = centre_after(rods.centre[i], linear[i], context.time_step);
+        axis[i] = axis_after(rods.axis[i], angular[i], context.time_step);
         known.displacement[i] =
             farthest_displacement(centre[i] - rods.centre[i], axis[i] - rods.axis[i], 0.5 * rods.length[i]);
     });

@@ -7,6 +7,7 @@
 #include "jostle/growth/growth.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/rods/box.hpp"
+#include "jostle/simulation/shearing.hpp"
 #include "jostle/state/state.hpp"
 
 // What closes gaps at the beginning of a step, so that the contact problem of the same step opens them: it changes the
@@ -69,6 +70,29 @@ private:
     Box box_before_;
     Vec3 stretch_{1, 1, 1};
     std::vector<Vec3> centre_before_;
+};
+
+/// All that a step changes at its beginning. `edges`: of the box at its end, if it changes.
+class ProvisionalChanges {
+public:
+    ProvisionalChanges(State& state, const std::optional<Vec3>& edges, const std::optional<ShearFlow>& flow,
+                       const std::optional<Growth>& growth, double time_step, CollisionSearch& search)
+        : squeezing_(state, edges, search),
+          shearing_(state, flow, time_step, search),
+          lengthening_(growth, state.rods, time_step) {}
+
+    /// Of the box, along each direction.
+    const Vec3& stretch() const { return squeezing_.stretch(); }
+    void keep() {
+        squeezing_.keep();
+        shearing_.keep();
+        lengthening_.keep();
+    }
+
+private:
+    Squeezing squeezing_;
+    Shearing shearing_;
+    Lengthening lengthening_;
 };
 
 }  // namespace jostle

@@ -18,11 +18,7 @@ double drift_of_motions(const Contact& contact, const Rods& rods, const Velociti
     const double begun = std::min(contact.gap, 0.0);
     const double sheared = strain * contact.normal.x * contact.normal.y * contact_radii(contact, rods);
     if (drift.size() == 0) return begun + sheared;
-    const auto velocity = [&](std::uint32_t body) {
-        return is_fixed(body) ? ContactVelocity{}
-                              : ContactVelocity{drift.linear[body], cross(drift.angular[body], rods.axis[body])};
-    };
-    return begun + sheared + time_step * gap_rate(contact, velocity(contact.i), velocity(contact.j));
+    return begun + sheared + time_step * gap_rate(contact, rods, drift);
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ void Simulation::renumber() {
 /// Forgets what belongs to rows, but for the contacts of the last step.
 void Simulation::rows_change() {
     if (ids_before_.empty()) ids_before_ = state_.rods.id;
-    search_.invalidate();
+    searches_.rods.invalidate();
     sizes_changed_ = true;
 }
 

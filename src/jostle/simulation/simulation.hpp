@@ -6,13 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "jostle/contact/collision_search.hpp"
-#include "jostle/contact/fixed_rod_search.hpp"
-#include "jostle/contact/wall_search.hpp"
-#include "jostle/contact_problem/contact_solver.hpp"
+#include "jostle/contact_problem/contact_solution.hpp"
 #include "jostle/domain/domain.hpp"
 #include "jostle/growth/growth.hpp"
 #include "jostle/parallel/thread_choice.hpp"
+#include "jostle/simulation/contact_searches.hpp"
 #include "jostle/simulation/known_motion.hpp"
 #include "jostle/simulation/simulation_settings.hpp"
 #include "jostle/simulation/size_bounds.hpp"
@@ -93,24 +91,15 @@ private:
     std::optional<Vec3> edges_of_step();
     void renumber();
     void rows_change();
-    ContactProblem posed_problem(const MobilityOperator& mobility, Contacts found, const BoxColumn& opening) const;
-    std::vector<double> gap_velocities(const Contacts& contacts) const;
-    std::vector<double> gap_velocities_beside(const ContactSolution& acting, const Contacts& contacts,
-                                              const ContactMatrix& contact_matrix);
-    std::optional<ContactSolution> resolved(ContactProblem& problem, const StepGeometry& geometry, StepReport& report);
-    bool run_to_solution(ContactSolver& solver, ContactProblem& problem, const StepGeometry& geometry,
-                         const ContactSolution* acting);
-    ContactSolution repelled(const ContactProblem& problem) const;
-    EndConfiguration end_configuration(const ContactMatrix& contact_matrix, const ContactSolution* acting,
-                                       const ContactSolution* solution);
-    Contacts relinearised(const ContactProblem& problem, const EndConfiguration& end,
-                          const ContactSolution& solution, double max_overlap_per_diameter) const;
-    void advance(StepReport& report);
-    void open_box(StepReport& report);
+    void update_sizes(const MobilityOperator& mobility);
+    Contacts find_contacts(const StepGeometry& geometry, StepReport& report);
+    void advance(KnownMotion& known, const ContactSolution& solution, const Contacts& contacts, StepReport& report);
+    void open_box(double rate, StepReport& report);
     /// Whether contact forces do, in the step in which they act.
     bool opens_box() const { return settings_.pressure && settings_.kT == 0.0; }
     void turn_round(std::span<const std::uint32_t> rows);
     void divide();
+    void begin_threads();
     StepContext context() const { return {settings_.seed, state_.clock.step, settings_.time_step}; }
 
     State state_;
@@ -133,15 +122,11 @@ private:
     // Kept from step to step for their memory, or for speed: dropping them changes no bit.
     ThreadChoice threads_;
     bool reordered_ = false;  ///< rods near each other are near each other in memory
-    CollisionSearch search_;
-    WallSearch wall_search_;
-    FixedRodSearch fixed_rod_search_;
+    ContactSearches searches_;
     bool sizes_changed_ = true;  ///< since `sizes_` were found
     SizeBounds sizes_;
     KnownMotion known_;
-    std::vector<ContactVelocity> by_forces_;  ///< (n) of the rods with contacts, by the forces on them
-    std::vector<Displacement> displacement_;  ///< (n) by these
-    std::vector<Vec3> half_way_axis_;         ///< (N)
+    std::vector<Vec3> half_way_axis_;  ///< (N)
 };
 
 }  // namespace jostle

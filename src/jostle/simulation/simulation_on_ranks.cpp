@@ -50,20 +50,20 @@ void Simulation::share(const Ranks& ranks) {
 /// Whether the neighbour list of every rank covers the step, and none is asked for anew.
 bool Simulation::neighbours_are_known(const StepGeometry& geometry) {
     if (!domain_.is_shared()) return true;
-    const bool is_covered = search_.is_covered(geometry);
+    const bool is_covered = searches_.rods.is_covered(geometry);
     return !domain_.ranks().any(gathering_ || !is_covered);
 }
 
 /// Rods change their rank, and neighbours are listed anew, as far as any rank needs them.
 void Simulation::gather(double skin) {
     const Ranks& ranks = domain_.ranks();
-    const double reach = 2.0 * (ranks.largest(search_.range_needed()) + skin);
+    const double range = 2.0 * (ranks.largest(searches_.rods.range_needed()) + skin);
     rows_change();
-    domain_.gather(state_.rods, state_.box, beyond_rounding * reach,
+    domain_.gather(state_.rods, state_.box, beyond_rounding * range,
                    ranks.any(balance_) || domain_.is_uneven(state_.rods));
-    NeighbourList& neighbours = search_.neighbours();
+    NeighbourList& neighbours = searches_.rods.neighbours();
     const std::size_t own = domain_.owned_of(state_.rods.size());
-    neighbours.build_of_own(state_.rods, state_.box, reach, own);
+    neighbours.build_of_own(state_.rods, state_.box, range, own);
     const auto rows = neighbours.rows_with_pairs(own);
     neighbours.keep(rows);
     domain_.keep(state_.rods, rows);

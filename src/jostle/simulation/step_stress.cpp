@@ -1,7 +1,6 @@
 #include "jostle/simulation/step_stress.hpp"
 
 #include "jostle/contact/fixed_rod_grid.hpp"
-#include "jostle/math/rotation.hpp"
 #include "jostle/parallel/sum_over_ranks.hpp"
 #include "jostle/stress/spring_stress.hpp"
 
@@ -18,7 +17,7 @@ void find_half_way_axes(const ResolvedStep& step, double time_step, std::vector<
         const Vec3 collision = cross(axis, step.solution.velocities[k].axis_rate);
         const Vec3 by_forces = step.known.by_forces.size() == 0 ? Vec3{} : step.known.by_forces.angular[row];
         const Vec3 turned = step.known.velocity.angular[row] - 0.5 * by_forces;
-        half_way_axis[row] = rotated(axis, time_step * (turned + 0.5 * collision));
+        half_way_axis[row] = axis_after(axis, turned + 0.5 * collision, time_step);
     });
 }
 
@@ -86,8 +85,8 @@ void measure_stress_of_known_forces(const ResolvedStep& step, double time_step, 
     half_way.resize(rods.size());
     const double half_step = 0.5 * time_step;
     parallel_for(rods.size(), [&](std::size_t i) {
-        half_way.centre[i] = rods.centre[i] + half_step * by_forces.linear[i];
-        half_way.axis[i] = rotated(rods.axis[i], half_step * by_forces.angular[i]);
+        half_way.centre[i] = centre_after(rods.centre[i], by_forces.linear[i], half_step);
+        half_way.axis[i] = axis_after(rods.axis[i], by_forces.angular[i], half_step);
     });
     if (!step.state.springs.empty())
         report.spring_virial =

@@ -14,7 +14,7 @@ namespace jostle {
 namespace {
 
 constexpr double growth_in_errors = 2.0;   // what more than this adds is no chance
-constexpr std::size_t most_blocks = 1024;  // for the error of one window
+constexpr std::size_t max_blocks = 1024;   // for the error of one window
 constexpr std::size_t longer_windows = 2;  // that have to add nothing to the one which is read
 
 /// x_t (x_t/2 + sum_k w_k x_(t+k)) for t = 0 ... rows - 1, mean over columns. With w_k = 1 up to `window`, and falling
@@ -72,7 +72,7 @@ CorrelationIntegral correlation_integral(std::span<const std::vector<double>> co
         return without_value(fmt::format("The series has only {} rows; at least {} are needed.", rows,
                                          2 * least_windows << (1 + longer_windows)));
     const std::size_t longest = std::size_t{1} << (levels - 1), starts = rows - 2 * longest;
-    const std::size_t block_length = std::max<std::size_t>(starts / most_blocks, 1);
+    const std::size_t block_length = std::max<std::size_t>(starts / max_blocks, 1);
     std::vector<std::vector<double>> blocks;  // of all windows from the same rows
     for (std::size_t level = 0; level < levels; ++level)
         blocks.push_back(block_means(integrand(columns, std::size_t{1} << level, starts), block_length));

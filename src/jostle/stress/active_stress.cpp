@@ -51,9 +51,9 @@ void ActiveStress::divide(const Rods& rods, const Box& box, std::span<const Divi
     if (divisions.empty()) return;
     know(rods);
     std::vector<Vec3> now(rods.size());
-    parallel_for(rods.size(), [&](std::size_t i) { now[place_of(rods.id[i])] = unwrapped(rods, box, i); });
+    parallel_for(rods.size(), [&](std::size_t i) { now[index_of(rods.id[i])] = unwrapped(rods, box, i); });
     for (const Division& division : divisions) {
-        const std::size_t mother = place_of(division.mother), daughter = place_of(division.daughter);
+        const std::size_t mother = index_of(division.mother), daughter = index_of(division.daughter);
         const Vec3 apart = 0.5 * (now[daughter] - now[mother]);  // her centre was half way between the two
         for (std::vector<Vec3>* remembered : {&newer_, &older_}) {
             const Vec3 from = (*remembered)[mother];
@@ -72,8 +72,8 @@ Mat3 ActiveStress::virial(const Rods& rods, const Box& box, std::span<const Vec3
     remember_new(rods, box);
     if (looks_ < lag_) return not_a_number * identity();
     return sum_over_ranks<Mat3>(ranks, rods.size(), [&](std::size_t i) {
-        const std::size_t place = place_of(rods.id[i]);
-        const Vec3& from = is_known(older_[place]) ? older_[place] : newer_[place];
+        const std::size_t index = index_of(rods.id[i]);
+        const Vec3& from = is_known(older_[index]) ? older_[index] : newer_[index];
         return outer(unwrapped(rods, box, i) - from, force[i]);
     });
 }
@@ -87,7 +87,7 @@ void ActiveStress::keep(std::uint64_t begin, std::uint64_t end) {
 }
 
 /// Of an id in `id_`; or where it would stand.
-std::size_t ActiveStress::place_of(std::uint64_t id) const {
+std::size_t ActiveStress::index_of(std::uint64_t id) const {
     if (id < id_.size() && id_[id] == id) return id;  // where none are born and none die, ids are 0 to N - 1
     return static_cast<std::size_t>(std::lower_bound(id_.begin(), id_.end(), id) - id_.begin());
 }
@@ -95,8 +95,8 @@ std::size_t ActiveStress::place_of(std::uint64_t id) const {
 /// Makes places for the rods that are there, and for no other.
 void ActiveStress::know(const Rods& rods) {
     const auto is_there = [&](std::uint64_t id) {
-        const std::size_t place = place_of(id);
-        return place < id_.size() && id_[place] == id;
+        const std::size_t index = index_of(id);
+        return index < id_.size() && id_[index] == id;
     };
     const auto there = parallel_sum<std::size_t>(
         rods.size(), [&](std::size_t i) { return is_there(rods.id[i]) ? std::size_t{1} : 0; });
@@ -106,9 +106,9 @@ void ActiveStress::know(const Rods& rods) {
     std::vector<Vec3> newer(ids.size(), unknown), older(ids.size(), unknown);
     for (std::size_t k = 0; k < ids.size(); ++k) {
         if (!is_there(ids[k])) continue;
-        const std::size_t place = place_of(ids[k]);
-        newer[k] = newer_[place];
-        older[k] = older_[place];
+        const std::size_t index = index_of(ids[k]);
+        newer[k] = newer_[index];
+        older[k] = older_[index];
     }
     id_.swap(ids);
     newer_.swap(newer);
@@ -119,7 +119,7 @@ void ActiveStress::know(const Rods& rods) {
 void ActiveStress::remember_new(const Rods& rods, const Box& box) {
     know(rods);
     parallel_for(rods.size(), [&](std::size_t i) {
-        Vec3& position = newer_[place_of(rods.id[i])];
+        Vec3& position = newer_[index_of(rods.id[i])];
         if (!is_known(position)) position = unwrapped(rods, box, i);
     });
 }

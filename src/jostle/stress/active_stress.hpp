@@ -53,7 +53,7 @@ public:
     static ActiveStress from_named(const NamedNumbers& numbers);
 
 private:
-    std::size_t place_of(std::uint64_t id) const;
+    std::size_t index_of(std::uint64_t id) const;
     void know(const Rods& rods);
     void remember_new(const Rods& rods, const Box& box);
 

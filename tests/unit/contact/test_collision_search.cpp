@@ -55,8 +55,7 @@ struct Moves {
         }
     }
     StepGeometry step(double range = 0.0, double normals_after = 0.0) const {
-        return {rods_before,  in_box, known, farthest_known, {displacement_limit, skin, margin, range},
-                normals_after};
+        return {rods_before, in_box, known, farthest_known, {displacement_limit, skin, margin, range}, normals_after};
     }
     EndConfiguration end() const {
         return {rods_before, known_velocity, known, 1.0, local_index, rows, velocity, displacement};
@@ -161,8 +160,7 @@ TEST_CASE("with a range, all pairs with a smaller gap are contacts") {
     Contacts contacts;
     search.find(moves.step(0.5), contacts);
     const auto found = keys(contacts);
-    for (const PairKey& key : pairs_within(rods, box, {rods.centre, rods.axis}, 0.5))
-        CHECK(found.count(key) == 1);
+    for (const PairKey& key : pairs_within(rods, box, {rods.centre, rods.axis}, 0.5)) CHECK(found.count(key) == 1);
 }
 
 TEST_CASE("what is found does not depend on when the neighbour list was built") {

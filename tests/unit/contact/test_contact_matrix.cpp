@@ -25,10 +25,6 @@ struct Assembly {
     }
 };
 
-struct Velocities {
-    std::vector<Vec3> linear, angular;  ///< (N)
-};
-
 Velocities random_velocities(std::size_t count, std::mt19937_64& engine) {
     std::normal_distribution<double> normal;
     Velocities velocities;
@@ -42,8 +38,7 @@ Velocities random_velocities(std::size_t count, std::mt19937_64& engine) {
 /// U and W = Omega x axis of the rods with contacts.
 std::vector<ContactVelocity> of_local_rods(const Velocities& velocities, const ContactMatrix& D, const Rods& rods) {
     std::vector<ContactVelocity> result;
-    for (const std::uint32_t row : D.rods())
-        result.push_back({velocities.linear[row], cross(velocities.angular[row], rods.axis[row])});
+    for (const std::uint32_t row : D.rods()) result.push_back(contact_velocity(velocities, row, rods.axis[row]));
     return result;
 }
 

@@ -51,7 +51,7 @@ TEST_CASE("rods whose axes cross are pushed apart in the plane, the shortest way
         const Contact& contact = contacts.contact[0];
         // Drawn back by its overlap the pair just touches, or is farther apart where an end lies beyond the other's.
         PairGeometry apart = pair;
-        apart.between += -contact.gap * contact.normal;
+        apart.centre_separation += -contact.gap * contact.normal;
         CHECK(pair_gap(apart) > -1e-9);
         const double sine = norm(cross(pair.axis_i, pair.axis_j));
         const double least = std::min(pair.half_i - std::fabs(nearest.s_i), pair.half_j - std::fabs(nearest.s_j));

@@ -42,8 +42,7 @@ double by_differences(const Rods& rods, const std::function<double(const Rods&)>
 }
 
 Contacts contacts_of(const Rods& rods) {
-    const PairGeometry pair =
-        pair_geometry(rods, 0, 1, rods.centre[1] - rods.centre[0], rods.axis[0], rods.axis[1]);
+    const PairGeometry pair = pair_geometry(rods, 0, 1, rods.centre[1] - rods.centre[0], rods.axis[0], rods.axis[1]);
     const NearestPoints nearest = nearest_points(pair);
     Contacts contacts;
     append_contacts({0, 1, {}}, pair, nearest, norm(nearest.separation), 1.0, 3, contacts);
@@ -70,11 +69,10 @@ TEST_CASE("how fast noise opens a gap is the trace of M times its second derivat
         const char* name;
         Rods rods;
     };
-    for (const auto& [name, rods] :
-         {Case{"side and side", two({0.2, 0.3, 1.0}, {1, 0.1, 0}, {0.1, 1, 0})},
-          Case{"end and side", two({0.3, 2.5, 0.1}, {1, 0, 0}, {0.4, 1, 0.3})},
-          Case{"side and end", two({3.0, -0.2, 0.1}, {1, 0, 0.2}, {0.3, 1, 0.3})},
-          Case{"end and end", two({3.7, 0.6, 0.3}, {1, 0, 0.1}, {1, 0.5, 0.3})}}) {
+    for (const auto& [name, rods] : {Case{"side and side", two({0.2, 0.3, 1.0}, {1, 0.1, 0}, {0.1, 1, 0})},
+                                     Case{"end and side", two({0.3, 2.5, 0.1}, {1, 0, 0}, {0.4, 1, 0.3})},
+                                     Case{"side and end", two({3.0, -0.2, 0.1}, {1, 0, 0.2}, {0.3, 1, 0.3})},
+                                     Case{"end and end", two({3.7, 0.6, 0.3}, {1, 0, 0.1}, {1, 0.5, 0.3})}}) {
         CAPTURE(name);
         const Contacts contacts = contacts_of(rods);
         REQUIRE(contacts.size() == 1);
@@ -116,8 +114,8 @@ TEST_CASE("the same at planes, in a sphere and in a tube, and at a fixed rod") {
     Rods rods;
     rods.push_back(0, {5.3, 7.0, 5.1}, normalised({0.4, 1, 0.3}), 2.0, 1.0);
     Contacts contacts;
-    const std::vector<double> reach{3.0};
-    append_fixed_rod_contacts(rods, pillar, reach, contacts);
+    const std::vector<double> range{3.0};
+    append_fixed_rod_contacts(rods, pillar, range, contacts);
     REQUIRE(contacts.size() == 1);
     const auto gap = [&](const Rods& at) {
         return pair_gap(pair_with(fixed, copy_of(contacts.contact[0], {}, pillar), at, 0, at.centre[0], at.axis[0]));

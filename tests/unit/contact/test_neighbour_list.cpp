@@ -107,17 +107,17 @@ TEST_CASE("pairs within reach are known while the box is sheared from step to st
         const double strain = 2e-3;
         Box box = Box({14, 13, 12}).sheared(-6.9);
         Rods rods = thrown(80, box, length, 1.0, engine);
-        const std::vector<double> reach(rods.size(), 0.05);
+        const std::vector<double> range(rods.size(), 0.05);
         NeighbourList kept(0.4);
         int built = 0, jumps = 0;
         for (int step = 0; step < 1200; ++step) {
-            built += kept.update(rods, box, reach) ? 1 : 0;
+            built += kept.update(rods, box, range) ? 1 : 0;
             if (step % 7 == 0) {
                 NeighbourList anew(0.1);
-                anew.update(rods, box, reach);
+                anew.update(rods, box, range);
                 Contacts from_kept, from_new;
-                find_contacts(rods, box, kept, reach, from_kept);
-                find_contacts(rods, box, anew, reach, from_new);
+                find_contacts(rods, box, kept, range, from_kept);
+                find_contacts(rods, box, anew, range, from_new);
                 REQUIRE(keys(from_kept) == keys(from_new));
             }
             const double further = box.offset() + strain * box.edges().y;

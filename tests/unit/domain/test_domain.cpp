@@ -60,7 +60,7 @@ bool is_same_rod(const Rods& a, std::size_t i, const Rods& b, std::size_t j) {
 }
 
 /// Throws unless the rods of all ranks are `all`, each once, and this rank knows all near to its own.
-void require_sound(const Domain& domain, const Rods& rods, const Rods& all, const Box& box, double reach) {
+void require_sound(const Domain& domain, const Rods& rods, const Rods& all, const Box& box, double range) {
     std::map<std::uint64_t, std::size_t> row_of;
     for (std::size_t row = 0; row < all.size(); ++row) row_of[all.id[row]] = row;
     std::set<std::uint64_t> known;
@@ -74,7 +74,7 @@ void require_sound(const Domain& domain, const Rods& rods, const Rods& all, cons
     for (std::size_t row = 0; row < owned; ++row)
         for (std::size_t other = 0; other < all.size(); ++other)
             if (!known.contains(all.id[other]))
-                require(gap_at_most(all, row_of.at(rods.id[row]), other, box) >= reach, "a rod near by is not known");
+                require(gap_at_most(all, row_of.at(rods.id[row]), other, box) >= range, "a rod near by is not known");
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ TEST_CASE("no rod is lost where rods change their rank, and ghosts are all that 
         Vec3 edges;
         std::array<bool, 3> periodic;
         std::size_t rods;
-        double longest, reach;
+        double longest, range;
     };
     const Case cases[] = {
         {{20, 20, 20}, {true, true, true}, 300, 3.0, 1.5},
@@ -115,8 +115,8 @@ TEST_CASE("no rod is lost where rods change their rank, and ghosts are all that 
                 Rods all = random_rods(now.rods, now.edges, now.longest, 2), rods = all;
                 Domain domain(ranks);
                 domain.share_out(rods);
-                domain.gather(rods, box, now.reach, true);
-                require_sound(domain, rods, all, box, now.reach);
+                domain.gather(rods, box, now.range, true);
+                require_sound(domain, rods, all, box, now.range);
                 // Rods move, ghosts as their owners have them, and are shared out anew.
                 std::mt19937 random(7);
                 std::uniform_real_distribution<double> any(0.0, 1.0);
@@ -133,8 +133,8 @@ TEST_CASE("no rod is lost where rods change their rank, and ghosts are all that 
                         rods.centre[row] = moved[rods.id[row]];
                         rods.image[row] = all.image[1000 - rods.id[row]];
                     }
-                    domain.gather(rods, box, now.reach, k == 1);
-                    require_sound(domain, rods, all, box, now.reach);
+                    domain.gather(rods, box, now.range, k == 1);
+                    require_sound(domain, rods, all, box, now.range);
                 }
             }));
         }

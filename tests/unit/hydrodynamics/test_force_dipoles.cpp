@@ -42,14 +42,14 @@ LineVector of_blobs(const Rods& rods, const RodBlobs& blobs, FlowAtBlob&& flow) 
     for (std::size_t b = 0; b < line.place.size(); ++b) {
         const Vec3 u = flow(rods.centre[1] + line.place[b] * rods.axis[1]);
         sum.centre += line.force_weight[b] * u;
-        sum.lever += line.lever_weight[b] * u;
+        sum.moment += line.moment_weight[b] * u;
     }
-    return {sum.centre, across(rods.axis[1], sum.lever)};
+    return {sum.centre, across(rods.axis[1], sum.moment)};
 }
 
 void check_close(const Velocities& found, const Rods& rods, const LineVector& expected, double relative) {
     CHECK(norm(found.linear[1] - expected.centre) < relative * norm(expected.centre));
-    CHECK(norm(found.angular[1] - cross(rods.axis[1], expected.lever)) < relative * norm(expected.lever));
+    CHECK(norm(found.angular[1] - cross(rods.axis[1], expected.moment)) < relative * norm(expected.moment));
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ TEST_CASE("two swimmers: the flow of blob forces p rho n of one, as the blobs of
             for (std::size_t c = 0; c < line.place.size(); ++c) {
                 const Vec3 r = rods.centre[0] + line.place[c] * rods.axis[0] - at;
                 u += stokes_flow(blobs.spread(), viscosity, squared_norm(r))
-                         .of(r, (dipole * line.lever_weight[c]) * rods.axis[0]);
+                         .of(r, (dipole * line.moment_weight[c]) * rods.axis[0]);
             }
             return u;
         });
@@ -106,7 +106,7 @@ TEST_CASE("two swimmers in a periodic box: against the sum over waves, rods and 
             if (length == 0.0) return -i * dipole * dot(k, rods.axis[0]) * std::exp(-i * dot(k, rods.centre[0]));
             std::complex<double> sum = 0.0;
             for (std::size_t c = 0; c < source.place.size(); ++c)
-                sum += dipole * source.lever_weight[c] *
+                sum += dipole * source.moment_weight[c] *
                        std::exp(-i * dot(k, rods.centre[0] + source.place[c] * rods.axis[0]));
             return sum;
         };
@@ -127,10 +127,10 @@ TEST_CASE("two swimmers in a periodic box: against the sum over waves, rods and 
                         const double phase = dot(k, rods.centre[1] + line.place[b] * rods.axis[1]);
                         const double wave = (from * std::polar(1.0, phase)).real();
                         expected.centre += (line.force_weight[b] * wave) * along;
-                        expected.lever += (line.lever_weight[b] * wave) * along;
+                        expected.moment += (line.moment_weight[b] * wave) * along;
                     }
                 }
-        expected.lever = across(rods.axis[1], expected.lever);
+        expected.moment = across(rods.axis[1], expected.moment);
         const Velocities found = stirred(rods, Box{edges}, {dipole, 0.0});
         check_close(found, rods, expected, 1e-5);
     }

@@ -310,7 +310,7 @@ TEST_CASE("boxes in which flows are not known are refused") {
         return "";
     };
     Chance chance;
-    const Rods few = chance.rods(3, 1.0, {9, 9, 9}), many = chance.rods(most_rods_in_open_box + 1, 0.0, {99, 99, 99});
+    const Rods few = chance.rods(3, 1.0, {9, 9, 9}), many = chance.rods(max_rods_in_open_box + 1, 0.0, {99, 99, 99});
     CHECK(refused(few, {{9, 9, 9}, {true, true, false}}) == "box.periodic");
     CHECK(refused(few, {{9, 9, 9}, {false, false, false}}) == "");
     CHECK(refused(many, {{99, 99, 99}, {false, false, false}}) == "rods.count");

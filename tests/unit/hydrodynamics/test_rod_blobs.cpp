@@ -41,14 +41,14 @@ TEST_CASE("a line of blobs is as mobile as its rod, but for a few per cent that 
         }
         CHECK(line.remainder.rotational >= 0.0);
         if (length > 0.0) CHECK(line.remainder.rotational < 0.19 * line.own.rotational);
-        double forces = 0.0, levers = 0.0, torque = 0.0;
+        double forces = 0.0, moments = 0.0, torque = 0.0;
         for (std::size_t b = 0; b < line.place.size(); ++b) {
             forces += line.force_weight[b];
-            levers += line.lever_weight[b];
-            torque += line.lever_weight[b] * line.place[b];
+            moments += line.moment_weight[b];
+            torque += line.moment_weight[b] * line.place[b];
         }
         CHECK(forces == doctest::Approx(1.0).epsilon(1e-14));
-        CHECK(levers == doctest::Approx(0.0));
+        CHECK(moments == doctest::Approx(0.0));
         if (length > 0.0) CHECK(torque == doctest::Approx(1.0).epsilon(1e-12));
     }
 }

@@ -17,7 +17,7 @@ StepError error_of(std::size_t count, double length) {
 
 TEST_CASE("long rods order where they are crowded, others do not") {
     const StepError fluid = error_of(100, 0.0), dilute = error_of(20, 5.0), crowded = error_of(100, 5.0);
-    CHECK(dilute.at_reference == fluid.at_reference);   // volume fraction 0.09
+    CHECK(dilute.at_reference == fluid.at_reference);  // volume fraction 0.09
     CHECK(crowded.at_reference > fluid.at_reference);  // 0.45, where rods of L/D = 5 are a nematic
     CHECK(error_of(600, 0.0).at_reference == fluid.at_reference);
 }

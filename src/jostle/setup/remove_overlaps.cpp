@@ -1,4 +1,4 @@
-#include "jostle/setup/push_apart.hpp"
+#include "jostle/setup/remove_overlaps.hpp"
 
 #include <algorithm>
 
@@ -16,7 +16,7 @@ constexpr double opened_each_round = 0.1;
 constexpr double free_space = 1e-3;
 constexpr double search_range = 0.1;
 constexpr double largest_move = 0.2;  ///< of any point of a rod in a round
-constexpr double apart_tolerance = 1e-4;
+constexpr double overlap_tolerance = 1e-4;
 constexpr int max_rounds = 2000;
 constexpr double overlap_rounding =
     1e-12;  ///< overlaps that are none: of a rod with its own image in a box of just its width
@@ -40,14 +40,14 @@ void move(Rods& rods, const Box& box, const ContactSolution& solution, double li
 
 }  // namespace
 
-DragLaw pushing_drag(bool turning) {
+DragLaw overlap_removal_drag(bool turning) {
     return [turning](double length, double diameter) {
         return RodMobility{1.0, 1.0, turning ? 12.0 / (length * length + diameter * diameter) : 0.0};
     };
 }
 
-PushApartResult push_apart(Rods& rods, const Box& box, const Mobility& mobility) {
-    PushApartResult result;
+OverlapRemovalResult remove_overlaps(Rods& rods, const Box& box, const Mobility& mobility) {
+    OverlapRemovalResult result;
     const double thinnest = rods.size() == 0 ? 1.0 : *std::min_element(rods.diameter.begin(), rods.diameter.end());
     NeighbourList neighbours(0.5 * thinnest);
     const std::vector<double> ranges(rods.size(), search_range * thinnest);
@@ -65,7 +65,7 @@ PushApartResult push_apart(Rods& rods, const Box& box, const Mobility& mobility)
         const auto mobility_now = mobility.at(rods, box);
         ContactProblem problem(rods, *mobility_now, contacts, std::move(b), 1.0);
         LcpSettings settings;
-        settings.tolerance = apart_tolerance * thinnest;
+        settings.tolerance = overlap_tolerance * thinnest;
         settings.max_iterations = iterations_each_round;
         // A rough solution still leads apart; only the last rounds need to be, and are, solved to the tolerance.
         const auto solver = make_contact_solver(problem, SolverMethod::automatic, settings);
