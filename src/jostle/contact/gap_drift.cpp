@@ -41,7 +41,7 @@ double GapDrift::operator()(const Contact& contact, const Image& image) const {
     const int turns = box_.dimensions() - 1;
     const Side j = side_of_rod(contact.j, contact.arm_j);
     double drift = -turns * j.rod.mobility.rotational * contact.arm_j * dot(j.rod.axis, contact.normal);
-    if (is_fixed(contact.i) && !is_fixed_rod(contact.i)) return drift + at_wall(contact);
+    if (is_wall(contact.i)) return drift + at_wall(contact);
     const Side i = is_fixed(contact.i) ? side_of_fixed_rod(contact, image) : side_of_rod(contact.i, contact.arm_i);
     drift += turns * i.rod.mobility.rotational * i.arm * dot(i.rod.axis, contact.normal);
     return drift + between(i, j, contact.normal,
@@ -70,8 +70,7 @@ double GapDrift::between(const Side& i, const Side& j, const Vec3& normal, doubl
 }
 
 double GapDrift::at_wall(const Contact& contact) const {
-    const Wall& wall =
-        *std::find_if(walls_.begin(), walls_.end(), [&](const Wall& one) { return one.body() == contact.i; });
+    const Wall& wall = wall_of_body(walls_, contact.i);
     if (wall.shape == Wall::Shape::plane) return 0.0;
     const Side j = side_of_rod(contact.j, contact.arm_j);
     const double from_centre = wall.radius - 0.5 * rods_.diameter[contact.j];

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "jostle/contact/fixed_rod_grid.hpp"
-
 namespace jostle {
 
 Contact contact_with_wall(const Wall& wall, const Rods& rods, std::uint32_t row, double arm) {
@@ -13,7 +11,7 @@ Contact contact_with_wall(const Wall& wall, const Rods& rods, std::uint32_t row,
     contact.j = row;
     contact.normal = wall.inwards(end);
     contact.arm_j = arm;
-    contact.gap = contact.gap_after = wall.distance(end) - 0.5 * rods.diameter[row];
+    contact.gap = contact.gap_after = wall.gap(end, rods.diameter[row]);
     return contact;
 }
 
@@ -37,12 +35,10 @@ Contacts relinearised_wall_contacts(const Contacts& contacts, const Box& box, co
     const std::vector<Wall> walls = walls_of(box);
     for (std::size_t l = 0; l < contacts.size() && !walls.empty(); ++l) {
         Contact contact = contacts.contact[l];
-        if (!is_fixed(contact.i) || is_fixed_rod(contact.i) || contacts.feature[l] == ContactFeature::relinearised)
-            continue;
-        const Wall& wall =
-            *std::find_if(walls.begin(), walls.end(), [&](const Wall& other) { return other.body() == contact.i; });
+        if (!is_wall(contact.i) || contacts.feature[l] == ContactFeature::relinearised) continue;
+        const Wall& wall = wall_of_body(walls, contact.i);
         const Vec3 point = end.centre(contact.j) + contact.arm_j * end.axis(contact.j);
-        contact.gap_after = wall.distance(point) - 0.5 * end.rods.diameter[contact.j];
+        contact.gap_after = wall.gap(point, end.rods.diameter[contact.j]);
         if (!(contact.gap_after < -max_overlap)) continue;
         contact.normal = wall.inwards(point);
         found.push_back(contact, {0, 0, 0}, ContactFeature::relinearised);

@@ -23,18 +23,19 @@ bool is_far(const Wall& wall, std::uint32_t row, double range, const StepGeometr
     return wall.distance(step.known.centre[row]) - half * inclined - radius - rounding > range;
 }
 
-/// The contact of the point at `arm` of a rod with a wall in a step.
+/// The point at `arm` of a rod after the known motion.
+Vec3 known_point(std::uint32_t row, double arm, const StepGeometry& step) {
+    return step.known.centre[row] + arm * step.known.axis[row];
+}
+
+/// The contact of that point with a wall.
 Contact contact_of_step(const Wall& wall, std::uint32_t row, double arm, const StepGeometry& step) {
     Contact contact = contact_with_wall(wall, step.rods, row, arm);
     const Vec3 before = step.rods.centre[row] + arm * step.rods.axis[row];
-    const Vec3 after = step.known.centre[row] + arm * step.known.axis[row];
+    const Vec3 after = known_point(row, arm, step);
     contact.normal = wall.inwards(before + step.normals_after * (after - before));
-    contact.gap_after = wall.distance(after) - 0.5 * step.rods.diameter[row];
+    contact.gap_after = wall.gap(after, step.rods.diameter[row]);
     return contact;
-}
-
-double gap_after_known_motion(const Wall& wall, std::uint32_t row, double arm, const StepGeometry& step) {
-    return wall.distance(step.known.centre[row] + arm * step.known.axis[row]) - 0.5 * step.rods.diameter[row];
 }
 
 }  // namespace
@@ -55,7 +56,7 @@ void WallSearch::search(std::uint32_t row, const StepGeometry& step, FoundContac
     for (const Wall& wall : walls_) {
         if (is_far(wall, row, range + step.displacement[row], step)) continue;
         for (const double arm : wall_arms(step.box.walls(), rods.length[row])) {
-            const double after = gap_after_known_motion(wall, row, arm, step);
+            const double after = wall.gap(known_point(row, arm, step), rods.diameter[row]);
             if (after - step.displacement[row] > range) continue;
             const Contact contact = contact_of_step(wall, row, arm, step);
             found.overlap = std::max(found.overlap, -contact.gap);
@@ -81,9 +82,9 @@ void WallSearch::search_again(std::uint32_t row, double farthest, const StepGeom
     for (const Wall& wall : walls_) {
         if (is_far(wall, row, farthest, step)) continue;
         for (const double arm : wall_arms(step.box.walls(), rods.length[row])) {
-            const double after = gap_after_known_motion(wall, row, arm, step);
+            const double after = wall.gap(known_point(row, arm, step), rods.diameter[row]);
             if (after > farthest || is_contact(row, wall, arm)) continue;
-            const double at_end = wall.distance(end.centre(row) + arm * end.axis(row)) - 0.5 * rods.diameter[row];
+            const double at_end = wall.gap(end.centre(row) + arm * end.axis(row), rods.diameter[row]);
             if (at_end >= 0.0) continue;
             known_[row] = static_cast<std::uint16_t>(known_[row] | 1U << bit_of(wall, arm));
             add(contact_of_step(wall, row, arm, step), found);

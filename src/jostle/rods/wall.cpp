@@ -54,6 +54,10 @@ std::vector<Wall> walls_of(const Box& box) {
     return walls;
 }
 
+const Wall& wall_of_body(std::span<const Wall> walls, std::uint32_t body) {
+    return *std::find_if(walls.begin(), walls.end(), [&](const Wall& wall) { return wall.body() == body; });
+}
+
 double area_of(const Wall& wall, const Box& box) {
     const Vec3& edges = box.edges();
     const double r = wall.radius;

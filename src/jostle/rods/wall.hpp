@@ -27,12 +27,22 @@ struct Wall {
     /// Unit vector at a point: from the surface, the nearest way, to the inside.
     Vec3 inwards(const Vec3& x) const;
     std::uint32_t body() const { return fixed_body(number); }
+
+    /// Gap between the surface and a sphere of this diameter around a point; negative: overlap.
+    double gap(const Vec3& x, double diameter) const { return distance(x) - 0.5 * diameter; }
 };
 
 inline constexpr std::uint32_t container_number = 6, max_walls = 7;
 
+constexpr bool is_wall(std::uint32_t body) {
+    return is_fixed(body) && number_of_fixed(body) < max_walls;
+}
+
 /// The walls of a box, in the order of their numbers.
 std::vector<Wall> walls_of(const Box& box);
+
+/// The one of these that is this body. It must be among them.
+const Wall& wall_of_body(std::span<const Wall> walls, std::uint32_t body);
 
 /// Area of one wall of the box; in two dimensions its length.
 double area_of(const Wall& wall, const Box& box);
