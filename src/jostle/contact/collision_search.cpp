@@ -23,6 +23,10 @@ std::int16_t in_normal_units(float component) {
     return static_cast<std::int16_t>(component * (1.0F / normal_unit));
 }
 
+/// If not more than one of so many rods is displaced beyond the limit, their pairs are looked for one rod after the
+/// other, else all pairs are passed over.
+constexpr std::size_t rods_per_one_beyond = 50;
+
 /// Pairs side by side, for vector instructions.
 struct Batch {
     static constexpr std::size_t size = 128;  ///< few enough to stay in the nearest cache
@@ -31,11 +35,15 @@ struct Batch {
     Row half_i, half_j, radii;
     Row gap;          ///< before the step
     Row bound_after;  ///< lower bound of the gap after the known motion: the width of a slab with `normal`
+    Row same_side;    ///< cosine of the angle between the lines of nearest points before and after that motion
     std::array<std::array<std::int16_t, size>, 3> normal;  ///< in units of normal_unit
 };
 
-/// The gaps of pairs, and the width of the empty slab between the moved rods whose faces
-/// are normal to the line between the nearest points.
+/// Beyond this cosine, rounding apart, rods have not passed through each other.
+constexpr float clearly_same_side = 0.1F;
+
+/// The gaps of pairs, and the width of the empty slab between the moved rods whose faces are normal to the line between
+/// their nearest points.
 JOSTLE_VECTORISED void find_bounds(std::size_t count, Batch& batch) {
     const auto& [x, y, z] = batch.between;
     const auto& [mx, my, mz] = batch.moved;
@@ -48,20 +56,27 @@ JOSTLE_VECTORISED void find_bounds(std::size_t count, Batch& batch) {
         const auto [ex, ey, ez] = segment_separation({x[k], y[k], z[k]}, {ux[k], uy[k], uz[k]}, batch.half_i[k],
                                                      {vx[k], vy[k], vz[k]}, batch.half_j[k]);
         const float distance = std::sqrt(ex * ex + ey * ey + ez * ez) + 1e-30F;
-        const float nx = ex / distance, ny = ey / distance, nz = ez / distance;
+        const float ax = x[k] + mx[k], ay = y[k] + my[k], az = z[k] + mz[k];
+        const auto [fx, fy, fz] = segment_separation({ax, ay, az}, {px[k], py[k], pz[k]}, batch.half_i[k],
+                                                     {qx[k], qy[k], qz[k]}, batch.half_j[k]);
+        const float distance_after = std::sqrt(fx * fx + fy * fy + fz * fz) + 1e-30F;
+        const float nx = fx / distance_after, ny = fy / distance_after, nz = fz / distance_after;
         normal_x[k] = in_normal_units(nx);
         normal_y[k] = in_normal_units(ny);
         normal_z[k] = in_normal_units(nz);
         batch.gap[k] = distance - batch.radii[k];
-        batch.bound_after[k] = (x[k] + mx[k]) * nx + (y[k] + my[k]) * ny + (z[k] + mz[k]) * nz -
+        batch.same_side[k] = (ex * nx + ey * ny + ez * nz) / distance;
+        batch.bound_after[k] = ax * nx + ay * ny + az * nz -
                                batch.half_i[k] * std::fabs(px[k] * nx + py[k] * ny + pz[k] * nz) -
                                batch.half_j[k] * std::fabs(qx[k] * nx + qy[k] * ny + qz[k] * nz) - batch.radii[k];
     }
 }
 
-}  // namespace
-
-namespace {
+/// By how much two rods' farthest displacements exceed the slack of the pair.
+JOSTLE_VECTORISED void displacements_less_slack(std::size_t count, const std::uint32_t* i, const std::uint32_t* j,
+                                                const float* slack, const float* farthest, float* excess) {
+    for (std::size_t k = 0; k < count; ++k) excess[k] = farthest[i[k]] + farthest[j[k]] - slack[k];
+}
 
 double interaction_range(const StepGeometry& step, std::size_t row) {
     return std::max(step.displacement[row] + step.ranges.displacement_limit, 0.5 * step.ranges.range);
@@ -121,7 +136,7 @@ void CollisionSearch::search_blocks(const StepGeometry& step) {
 }
 
 void CollisionSearch::search_block(std::size_t block, const StepGeometry& step, Found& found) {
-    std::array<std::uint32_t, Batch::size> rows;
+    std::array<std::uint32_t, Batch::size> rows_i, rows_j;
     std::array<std::uint16_t, Batch::size> in_block;
     std::size_t count = 0;
     Batch batch;
@@ -130,12 +145,13 @@ void CollisionSearch::search_block(std::size_t block, const StepGeometry& step, 
         for (std::size_t k = 0; k < count; ++k) {
             const float size = batch.half_i[k] + batch.half_j[k] + batch.radii[k];
             const float slack = batch.bound_after[k] - bound_error * size;
-            const bool clear = batch.gap[k] - gap_error * batch.radii[k] > static_cast<float>(step.ranges.range);
+            const bool clear = batch.gap[k] - gap_error * batch.radii[k] > static_cast<float>(step.ranges.range) &&
+                               batch.same_side[k] > clearly_same_side;
             if (clear && slack >= static_cast<float>(step.ranges.activation_margin))
-                found.inactive.push_back(
-                    {rows[k], slack, {batch.normal[0][k], batch.normal[1][k], batch.normal[2][k]}, in_block[k]});
+                found.inactive.push_back(rows_i[k], rows_j[k], slack,
+                                         {{batch.normal[0][k], batch.normal[1][k], batch.normal[2][k]}, in_block[k]});
             else
-                narrow_phase(rows[k], key_of(block, rows[k], in_block[k], step.rods), in_block[k], step, found);
+                narrow_phase(rows_i[k], key_of(block, rows_i[k], in_block[k], step.rods), in_block[k], step, found);
         }
         count = 0;
     };
@@ -143,7 +159,8 @@ void CollisionSearch::search_block(std::size_t block, const StepGeometry& step, 
         const auto& [i, j, image] = neighbours_.key(row, pair);
         const RodBounds &a = bounds_[i], &b = bounds_[j];
         const auto between = in_float(b.centre + step.box.displacement(image) - a.centre);
-        rows[count] = row;
+        rows_i[count] = row;
+        rows_j[count] = j;
         in_block[count] = static_cast<std::uint16_t>(pair - block * NeighbourList::block_size);
         for (std::size_t k = 0; k < 3; ++k) {
             batch.between[k][count] = between[k];
@@ -181,10 +198,9 @@ void CollisionSearch::narrow_phase(std::uint32_t row, const PairKey& key, std::u
     const double slack = gap_after - 1e-6 * after.radii;
     // From the rod that the neighbour list names first to the other.
     const auto normal = in_float((row == i ? 1.0 : -1.0) / distance_after * nearest_after.separation);
-    found.inactive.push_back({row,
-                              static_cast<float>(slack),
-                              {in_normal_units(normal[0]), in_normal_units(normal[1]), in_normal_units(normal[2])},
-                              in_block});
+    found.inactive.push_back(
+        row, row == i ? j : i, static_cast<float>(slack),
+        {{in_normal_units(normal[0]), in_normal_units(normal[1]), in_normal_units(normal[2])}, in_block});
 }
 
 /// Appends the contacts of a pair.
@@ -219,15 +235,29 @@ bool CollisionSearch::is_contact(const PairKey& key, const Contacts& contacts) c
 }
 
 /// Whether displacements could use up the slack of an inactive pair along the normal of its slab.
-bool CollisionSearch::may_meet(const InactivePair& pair, const Displacement& i, const Displacement& j) {
+bool CollisionSearch::may_meet(const InactivePairs& pairs, std::size_t k) const {
+    const Displacement &i = displacement_[pairs.i[k]], &j = displacement_[pairs.j[k]];
     const float farthest = i.farthest + j.farthest;
-    const auto along = [&normal = pair.normal](const std::array<float, 3>& a) {
+    const auto along = [&normal = pairs.slab[k].normal](const std::array<float, 3>& a) {
         return normal_unit * (static_cast<float>(normal[0]) * a[0] + static_cast<float>(normal[1]) * a[1] +
                               static_cast<float>(normal[2]) * a[2]);
     };
     const float width =
-        pair.slack + along(j.centre) - along(i.centre) - std::fabs(along(i.end)) - std::fabs(along(j.end));
+        pairs.slack[k] + along(j.centre) - along(i.centre) - std::fabs(along(i.end)) - std::fabs(along(j.end));
     return width < i.inaccuracy + j.inaccuracy + 2.0F * normal_unit * farthest;
+}
+
+/// Calls search(block, pair) for the inactive pairs of a block that displacements may bring together.
+template <class Search>
+void CollisionSearch::search_inactive(std::size_t block, Search&& search) const {
+    const auto [share, begin, end] = in_block_[block];
+    const InactivePairs& pairs = shares_[share].inactive;
+    // Most have more slack than any displacement: those are passed over by this alone.
+    std::array<float, NeighbourList::block_size> excess;
+    displacements_less_slack(end - begin, pairs.i.data() + begin, pairs.j.data() + begin, pairs.slack.data() + begin,
+                             farthest_.data(), excess.data());
+    for (std::size_t k = begin; k < end; ++k)
+        if (excess[k - begin] > 0.0F && may_meet(pairs, k)) search(pairs.i[k], pairs.slab[k].in_block);
 }
 
 /// Whether a pair that is no contact touches at the end of the step.
@@ -267,15 +297,10 @@ std::vector<PairKey> CollisionSearch::violated_pairs(const StepGeometry& step, c
         if (is_violated(key, step, contacts, end)) found[block].push_back(key);
     };
     if (!neighbours_.built_while_widened()) {
-        // Most inactive pairs have more slack than any displacement: those are passed over by this alone, in few bytes.
         parallel_for_parts(in_block_.size(), [&](std::size_t block) {
-            const auto [share, begin, end_of_block] = in_block_[block];
-            for (const InactivePair& pair : std::span(shares_[share].inactive).subspan(begin, end_of_block - begin)) {
-                const std::uint32_t j = neighbours_.partner(pair_number(block, pair.in_block));
-                if (pair.slack >= farthest_[pair.i] + farthest_[j]) continue;
-                if (may_meet(pair, displacement_[pair.i], displacement_[j]))
-                    search(block, key_of(block, pair.i, pair.in_block, step.rods));
-            }
+            search_inactive(block, [&](std::uint32_t i, std::size_t in_block) {
+                search(block, key_of(block, i, in_block, step.rods));
+            });
         });
     }
     // Pairs that were passed over because no force was thought to take rods so far; and all, once the list is another.
@@ -285,15 +310,20 @@ std::vector<PairKey> CollisionSearch::violated_pairs(const StepGeometry& step, c
             if (!within_limit(row)) farther.push_back({row, farthest_[row] - limit});
     }
     if (!farther.empty()) neighbours_.widen(step.rods, step.box, interaction_range_, farther);
-    if (!farther.empty() || neighbours_.built_while_widened()) {
-        found.resize(std::max(found.size(), neighbours_.block_count()));
-        parallel_for_parts(neighbours_.block_count(), [&](std::size_t block) {
-            neighbours_.for_close_pairs(block, [&](std::uint32_t i, std::size_t pair) {
-                if (!neighbours_.was_close(i, pair))
-                    search(block, in_order_of_ids(neighbours_.key(i, pair), step.rods.id));
-            });
-        });
-    }
+    const bool are_many = step.rods.size() < rods_per_one_beyond * farther.size();
+    const bool in_blocks = are_many || neighbours_.built_while_widened();
+    const std::size_t parts = in_blocks ? neighbours_.block_count() : farther.size();
+    found.resize(std::max(found.size(), parts));
+    parallel_for_parts(parts, [&](std::size_t part) {
+        const auto look = [&](std::uint32_t i, std::size_t pair) {
+            if (neighbours_.is_newly_close(i, pair))
+                search(part, in_order_of_ids(neighbours_.key(i, pair), step.rods.id));
+        };
+        if (in_blocks)
+            neighbours_.for_close_pairs(part, look);
+        else
+            neighbours_.for_close_pairs_of(farther[part].row, look);
+    });
     std::vector<PairKey> all;
     for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
     std::sort(all.begin(), all.end());

@@ -82,16 +82,33 @@ private:
         std::array<float, 3> axis, moved, axis_after;
         float half_length, radius;
     };
-    struct InactivePair {  ///< there are several a rod, so they take few bytes
-        std::uint32_t i;   ///< the smaller row: that which the neighbour list names
-        float slack;       ///< how much wider than touching the gap is after the known motion, at least
-        std::array<std::int16_t, 3>
-            normal;  ///< of a slab of that width between the rods, from i to the other, in units of normal_unit
-        std::uint16_t in_block;  ///< its number in a block of the neighbour list; good until the list is built again
+    struct Slab {                            ///< between the rods of an inactive pair, after the known motion
+        std::array<std::int16_t, 3> normal;  ///< from i to j, in units of normal_unit
+        std::uint16_t in_block;  ///< number of the pair in a block of the neighbour list, until that is built again
+    };
+    /// Inactive pairs, of which there are several a rod: what all are asked, side by side, for vector instructions.
+    struct InactivePairs {
+        std::vector<std::uint32_t> i, j;  ///< rows, i the smaller one: that which the neighbour list names
+        std::vector<float> slack;         ///< width of the slab: the gap is as wide, at least
+        std::vector<Slab> slab;
+
+        std::size_t size() const { return slack.size(); }
+        void clear() {
+            i.clear();
+            j.clear();
+            slack.clear();
+            slab.clear();
+        }
+        void push_back(std::uint32_t row_i, std::uint32_t row_j, float width, const Slab& new_slab) {
+            i.push_back(row_i);
+            j.push_back(row_j);
+            slack.push_back(width);
+            slab.push_back(new_slab);
+        }
     };
     struct Found {  ///< by one thread, block after block of the neighbour list
         Contacts contacts;
-        std::vector<InactivePair> inactive;
+        InactivePairs inactive;
         double overlap = 0.0;
     };
 
@@ -112,7 +129,9 @@ private:
                       Found& found) const;
     void append(const PairKey& key, const PairGeometry& before, const NearestPoints& nearest, const PairGeometry& after,
                 const StepGeometry& step, Contacts& contacts) const;
-    static bool may_meet(const InactivePair& pair, const Displacement& i, const Displacement& j);
+    bool may_meet(const InactivePairs& pairs, std::size_t k) const;
+    template <class Search>
+    void search_inactive(std::size_t block, Search&& search) const;
     bool is_contact(const PairKey& key, const Contacts& contacts) const;
     bool is_violated(const PairKey& key, const StepGeometry& step, const Contacts& contacts,
                      const EndConfiguration& end) const;

@@ -1,6 +1,7 @@
 #include "jostle/contact/neighbour_list.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 
@@ -32,14 +33,15 @@ void NeighbourList::widen(const Rods& rods, const Box& box, std::span<const doub
         extent_[row] += in_units(beyond);
         is_too_far = is_too_far || extent_[row] >= in_units(0.5 * list_range_);  // both rounded up
     }
-    if (!is_too_far) return;
-    std::vector<double> needed(ranges.begin(), ranges.end());
-    for (const auto& [row, beyond] : farther) needed[row] += beyond;
-    if (is_of_own_rods_) {
-        lacking_range_ = *std::ranges::max_element(needed);
-        return;
+    if (is_too_far) {
+        std::vector<double> needed(ranges.begin(), ranges.end());
+        for (const auto& [row, beyond] : farther) needed[row] += beyond;
+        if (is_of_own_rods_)
+            lacking_range_ = *std::ranges::max_element(needed);
+        else
+            built_while_widened_ = refresh(rods, box, needed) || built_while_widened_;
     }
-    built_while_widened_ = refresh(rods, box, needed) || built_while_widened_;
+    if (!built_while_widened_ && partner_begin_.empty()) list_partners();
 }
 
 // A stretch e moves two centres less than `centre_range_` apart by e centre_range_ against each other at most; and
@@ -128,18 +130,39 @@ std::int32_t NeighbourList::in_units(double extent) const {
     return 1 + static_cast<std::int32_t>(std::min(extent * units_per_length_, 4.0 * units_per_list_range));
 }
 
-/// The rows that pairs belong to, and by how much their extents exceed their gaps.
-void NeighbourList::find_closeness(std::size_t begin, std::size_t end, std::uint32_t* i,
-                                   std::int32_t* closeness) const {
+/// Those whose rods' extents exceed their gap.
+void NeighbourList::find_close_pairs(std::size_t block, InBlock& close) const {
+    const std::size_t begin = block * block_size, end = std::min(begin + block_size, size());
+    std::array<std::int32_t, block_size> excess;
     auto next = std::upper_bound(begin_.begin(), begin_.end(), begin);
     for (std::size_t pair = begin; pair < end; ++next) {
         const auto row = static_cast<std::uint32_t>(next - begin_.begin() - 1);
         const std::size_t last = std::min(*next, end);
-        std::fill(i + (pair - begin), i + (last - begin), row);
-        std::fill(closeness + (pair - begin), closeness + (last - begin), extent_[row]);
+        std::fill(close.i.data() + (pair - begin), close.i.data() + (last - begin), row);
+        std::fill(excess.data() + (pair - begin), excess.data() + (last - begin), extent_[row]);
         pair = last;
     }
-    extents_less_gaps(end - begin, j_.data() + begin, gap_.data() + begin, extent_.data(), closeness);
+    extents_less_gaps(end - begin, j_.data() + begin, gap_.data() + begin, extent_.data(), excess.data());
+    close.count = 0;
+    for (std::size_t k = 0; k < end - begin; ++k) {  // without a jump: it would be badly guessed
+        close.i[close.count] = close.i[k];
+        close.pair[close.count] = begin + k;
+        close.count += excess[k] >= 0 ? 1 : 0;
+    }
+}
+
+/// In no order of those of a row.
+void NeighbourList::list_partners() {
+    const auto place = [this](std::uint32_t row) { return std::atomic_ref(partner_begin_[row]); };
+    partner_begin_.assign(begin_.size(), 0);
+    parallel_for(size(), [&](std::size_t pair) { place(j_[pair]).fetch_add(1, std::memory_order_relaxed); });
+    std::inclusive_scan(partner_begin_.begin(), partner_begin_.end(), partner_begin_.begin());
+    partner_of_.resize(size());
+    parallel_for(begin_.size() - 1, [&](std::size_t i) {
+        for (std::size_t pair = begin_[i]; pair < begin_[i + 1]; ++pair)
+            partner_of_[place(j_[pair]).fetch_sub(1, std::memory_order_relaxed) - 1] = {
+                static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(pair - begin_[i])};
+    });
 }
 
 void NeighbourList::build(const Rods& rods, const Box& box, double list_range, std::size_t own) {
@@ -160,6 +183,7 @@ void NeighbourList::build(const Rods& rods, const Box& box, double list_range, s
     const double range = centre_range_ = longest + list_range;
     longest_ = parallel_max(rods.size(), 0.0, [&](std::size_t i) { return rods.length[i]; });
     squeezed_ = 0.0;
+    partner_begin_.clear();
     const CellList cells(rods, box, range);
     const ImageNumbers images(cells.farthest_image());
     images_ = images.all();

@@ -40,8 +40,7 @@ public:
         double beyond;  ///< a length
     };
 
-    /// After an `update` with `ranges`: lets some rods come farther, in place of earlier such ones. `was_close` then
-    /// tells which pairs were close without.
+    /// After an `update` with `ranges`: lets some rods come farther, in place of earlier such ones.
     void widen(const Rods& rods, const Box& box, std::span<const double> ranges, std::span<const BeyondRange> farther);
 
     // Where other ranks have rods, too, only those near by are known, and this only up to some gap. The list is then
@@ -89,9 +88,6 @@ public:
         return now;
     }
 
-    /// j of a pair.
-    std::uint32_t partner(std::size_t pair) const { return j_[pair]; }
-
     static constexpr std::size_t block_size = 512;
     std::size_t block_count() const { return (size() + block_size - 1) / block_size; }
 
@@ -99,33 +95,43 @@ public:
     /// update. Most pairs of the list are passed over by what they were when the list was built.
     template <class Found>
     void for_close_pairs(std::size_t block, Found&& found) const {
-        const std::size_t begin = block * block_size, end = std::min(begin + block_size, size());
-        std::array<std::uint32_t, block_size> i;
-        std::array<std::int32_t, block_size> closeness;
-        find_closeness(begin, end, i.data(), closeness.data());
-        std::array<std::uint32_t, block_size> close;  // without a jump: it would be badly guessed
-        std::size_t count = 0;
-        for (std::size_t k = 0; k < end - begin; ++k) {
-            close[count] = static_cast<std::uint32_t>(k);
-            count += closeness[k] >= 0 ? 1 : 0;
-        }
-        for (std::size_t k = 0; k < count; ++k) found(i[close[k]], begin + close[k]);
+        InBlock close;
+        find_close_pairs(block, close);
+        for (std::size_t k = 0; k < close.count; ++k) found(close.i[k], close.pair[k]);
+    }
+
+    /// Whether for_close_pairs did not name a pair before the list was widened; of any, if that built the list anew.
+    bool is_newly_close(std::uint32_t i, std::size_t pair) const {
+        return built_while_widened_ || extent_within_[i] + extent_within_[j_[pair]] < gap_[pair];
+    }
+
+    /// Calls found(i, pair) for the close pairs of one row, i or j. After `widen`, unless that has built the list anew.
+    template <class Found>
+    void for_close_pairs_of(std::uint32_t row, Found&& found) const {
+        const auto look = [&](std::uint32_t i, std::size_t pair) {
+            if (extent_[i] + extent_[j_[pair]] >= gap_[pair]) found(i, pair);
+        };
+        for (std::size_t pair = begin_[row]; pair < begin_[row + 1]; ++pair) look(row, pair);
+        for (std::size_t k = partner_begin_[row]; k < partner_begin_[row + 1]; ++k)
+            look(partner_of_[k].i, begin_[partner_of_[k].i] + partner_of_[k].in_row);
     }
 
     /// Whether widening has built the list anew, so that pairs have other numbers than after the last update.
     bool built_while_widened() const { return built_while_widened_; }
-
-    /// Whether for_close_pairs named the pair before the list was widened; no for all if it had to be built anew.
-    bool was_close(std::uint32_t i, std::size_t pair) const {
-        return !built_while_widened_ && extent_within_[i] + extent_within_[j_[pair]] >= gap_[pair];
-    }
 
 private:
     bool refresh(const Rods& rods, const Box& box, std::span<const double> ranges);
     double find_extents(const Rods& rods, const Box& box, std::span<const double> ranges);
     std::int32_t in_units(double extent) const;
     void build(const Rods& rods, const Box& box, double list_range, std::size_t own);
-    void find_closeness(std::size_t begin, std::size_t end, std::uint32_t* i, std::int32_t* closeness) const;
+
+    struct InBlock {  ///< the close pairs of a block
+        std::size_t count = 0;
+        std::array<std::uint32_t, block_size> i;
+        std::array<std::size_t, block_size> pair;
+    };
+    void find_close_pairs(std::size_t block, InBlock& close) const;
+    void list_partners();
 
     double skin_;
     double list_range_ = 0.0;
@@ -146,6 +152,11 @@ private:
     std::vector<std::array<std::int16_t, 3>> crossed_;  ///< (N) box edges that a rod has crossed since
     std::vector<std::int32_t> extent_;                  ///< (N) d_i + range_i at the last update, in units, rounded up
     std::vector<std::int32_t> extent_within_;           ///< (N) before the list was widened, or none
+    struct PairOfRow {
+        std::uint32_t i, in_row;
+    };
+    std::vector<PairOfRow> partner_of_;       ///< (pairs) those in which a row is j, one row after the other
+    std::vector<std::size_t> partner_begin_;  ///< (N + 1) the first of each row; none until needed
     bool built_while_widened_ = false;
     bool is_of_own_rods_ = false;  ///< and not built but when told to
     double lacking_range_ = 0.0;
