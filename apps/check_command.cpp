@@ -186,17 +186,14 @@ void print_schedule(const Scene& scene, const Box& box, double rods_volume) {
 /// How many of its own clocks the production covers, and how much of it would do for error bars.
 void print_clocks(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, double phi) {
     constexpr double margin = 1.25;  // over what is needed at the least
-    const FreeClocks clocks = free_clocks(scene, mobility, rods);
+    const FreeClocks clocks = free_clocks(scene, mobility, rods, phi);
     if (grows(scene) || (clocks.rotation == 0.0 && clocks.diffusion == 0.0)) return;
     const double production = scene.time.production;
-    const double slowdown = rods_are_alike(scene) && !rods_are_given(scene)
-                                ? crowding_slowdown(phi, rods.length[0] / rods.diameter[0], dimensions_of(scene))
-                                : 1.0;
     std::string covered, needed;
     if (clocks.rotation > 0.0) {
         print("rotation time, alone", with_unit(clocks.rotation, scene, dimension::time));
-        print("rotation time, in the crowd",
-              fmt::format("about {:.2g} {}", slowdown * clocks.rotation, readable_unit_of(scene, dimension::time)));
+        print("rotation time, in the crowd", fmt::format("about {:.2g} {}", clocks.slowdown * clocks.rotation,
+                                                         readable_unit_of(scene, dimension::time)));
         covered = in_times(production / clocks.rotation, "rotation time");
         if (production < least_rotation_times * clocks.rotation)
             needed = fmt::format("{} rotation times are needed", least_rotation_times);
@@ -215,8 +212,8 @@ void print_clocks(const Scene& scene, const MobilityOperator& mobility, const Ro
     }
     print("production", needed.empty() ? "covers " + covered + " of a rod alone"
                                        : "too short to tell: covers " + covered + "; at least " + needed);
-    const double enough =
-        margin * std::max(least_rotation_times * slowdown * clocks.rotation, least_diffusion_times * clocks.diffusion);
+    const double enough = margin * std::max(least_rotation_times * clocks.slowdown * clocks.rotation,
+                                            least_diffusion_times * clocks.diffusion);
     print("production for error bars",
           fmt::format("about {:.2g} {} (an estimate)", enough, readable_unit_of(scene, dimension::time)));
 }

@@ -33,10 +33,7 @@ Measurement::Measurement(const Scene& scene, const Simulation& simulation, StepS
       sums_(std::move(sums)),
       series_(begun(std::move(earlier_rows), series_columns_)),
       begin_(series_.rows() > 0 ? 0.0 : simulation.clock().time - sums_.steps * simulation.settings().time_step),
-      length_(scene_, simulation.settings().time_step,
-              free_clocks(scene_at_end(scene_), *simulation.mobility().at(simulation.rods(), simulation.box()),
-                          simulation.rods()),
-              begin_),
+      length_(scene_, simulation.settings().time_step, free_clocks(scene_, simulation), begin_),
       frame_steps_(scene_, simulation.settings().time_step, static_cast<double>(simulation.rods().size())) {}
 
 Due Measurement::add(const StepReport& report, const Simulation& simulation) {

@@ -56,8 +56,7 @@ ProductionWindow window_of(const Scene& scene, const Simulation& simulation, con
 SummarisedRun summarised(const Scene& scene, const Simulation& simulation, const SeriesTable& series, double begin) {
     if (simulation.rods().size() == 0) refuse_to_average("all cells have died", "");
     if (series.rows() == 0) refuse_to_average("the series has no row yet", "Make more steps");
-    const FreeClocks clocks = free_clocks(
-        scene_at_end(scene), *simulation.mobility().at(simulation.rods(), simulation.box()), simulation.rods());
+    const FreeClocks clocks = free_clocks(scene, simulation);
     const ProductionWindow window = window_of(scene, simulation, series, clocks, begin);
     const std::size_t first = window.first_row;
     return {.scene = scene,

@@ -2,15 +2,32 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <span>
 
 #include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_motion.hpp"
+#include "jostle/scene/schedule.hpp"
 
 namespace jostle {
 
-FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, const Rods& rods) {
+namespace {
+
+/// Rods that do not grow, all of one length and diameter.
+bool are_alike(const Scene& scene, const Rods& rods) {
+    const auto all_equal = [](std::span<const double> values) {
+        return std::ranges::adjacent_find(values, std::not_equal_to{}) == values.end();
+    };
+    return rods.size() > 0 && !grows(scene) && all_equal(rods.length) && all_equal(rods.diameter);
+}
+
+}  // namespace
+
+FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, double volume_fraction) {
     FreeClocks clocks;
+    if (are_alike(scene, rods))
+        clocks.slowdown = crowding_slowdown(volume_fraction, rods.length[0] / rods.diameter[0], dimensions_of(scene));
     const bool turn = std::any_of(rods.length.begin(), rods.length.end(), [](double length) { return length > 0.0; });
     const double persistence = turn ? persistence_time(scene, mobility, rods.size()) : 0.0;
     if (std::isfinite(persistence)) clocks.rotation = persistence;
@@ -25,6 +42,13 @@ FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, con
         clocks.diffusion = std::max(clocks.diffusion, rods.diameter[i] * rods.diameter[i] / diffusion);
     }
     return clocks;
+}
+
+FreeClocks free_clocks(const Scene& scene, const Simulation& simulation) {
+    const Rods& rods = simulation.rods();
+    const Box& box = simulation.box();
+    return free_clocks(scene_at_end(scene), *simulation.mobility().at(rods, box), rods,
+                       total_volume(rods, box.dimensions()) / box.volume());
 }
 
 double crowding_slowdown(double volume_fraction, double aspect_ratio, int dimensions) {

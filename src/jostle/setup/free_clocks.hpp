@@ -3,13 +3,17 @@
 #include "jostle/mobility/mobility.hpp"
 #include "jostle/rods/rods.hpp"
 #include "jostle/scene/scene.hpp"
+#include "jostle/simulation/simulation.hpp"
 #include "jostle/statistics/equilibrium_check.hpp"
 
 namespace jostle {
 
 /// The clocks of the slowest rod, were it alone; 0 without Brownian motion (and tumbles or reversals, which turn a rod,
-/// too), that of rotation also where all are spheres.
-FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, const Rods& rods);
+/// too), that of rotation also where all are spheres. The slowdown is that of `crowding_slowdown` where rods are alike,
+/// else 1.
+FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, double volume_fraction);
+/// Those of a simulation as its rods and box are now, after all that the schedule changes in the scene.
+FreeClocks free_clocks(const Scene& scene, const Simulation& simulation);
 
 /// By how much slower than one alone rods turn in a crowd, roughly: before a run, and for rods that are alike.
 ///

@@ -60,6 +60,9 @@ std::string too_short(const ProductionSeries& series, const FreeClocks& clocks, 
             if (!std::isfinite(decay))
                 return fmt::format("crowded as they are, the rods have turned fewer than {} times",
                                    least_rotation_times);
+        } else {
+            check.rotation_time = clocks.slowdown * clocks.rotation;
+            check.rotation_times = window / check.rotation_time;
         }
         if (check.rotation_times < least_rotation_times)
             return covers(check.rotation_times, "rotation time", least_rotation_times) + ", slow as the crowd is";

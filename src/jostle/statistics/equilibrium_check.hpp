@@ -6,11 +6,13 @@
 
 namespace jostle {
 
-/// How long a rod alone takes to forget how it lay. Where nothing turns, or nothing diffuses, the time is 0.
+/// How long a rod alone takes to forget how it lay, and by how much a crowd slows that. Where nothing turns, or nothing
+/// diffuses, the time is 0.
 struct FreeClocks {
     double rotation = 0.0;   ///< 1/(2 D_R), in the plane 1/D_R: <n(0).n(t)> has fallen to 1/e
     double diffusion = 0.0;  ///< D^2/D_t
     double flow = 0.0;       ///< one unit of strain; of a flow to and fro a period
+    double slowdown = 1.0;   ///< by so many times the order of the crowd relaxes more slowly, by estimate
 };
 
 /// Rotation times that a window has to cover. The order tensor of free rods decays three times as fast as their axes:
@@ -42,7 +44,7 @@ struct EquilibriumCheck {
     enum class Verdict { reached, drifting, too_short, not_checked };
     Verdict verdict = Verdict::not_checked;
     std::string reason;            ///< half a sentence where it was not reached
-    double rotation_time = 0.0;    ///< the longer of that of a free rod and three times the decay of the order tensor
+    double rotation_time = 0.0;    ///< of a rod in the crowd
     double rotation_times = 0.0;   ///< in the window; 0 where nothing turns
     double diffusion_times = 0.0;  ///< likewise
     double flow_times = 0.0;       ///< likewise, of the flow
@@ -53,9 +55,10 @@ struct EquilibriumCheck {
 /// Too short to tell: fewer than 4 rotation times, 2 diffusion times or 2 units of strain, or fewer than 8 independent
 /// values of the order. A rotation time is the longer of that of a free rod, which no series can shorten, and of what
 /// the series shows: the order tensor of free rods decays with 1/(6 D_R), so crowding makes it three times the
-/// correlation time of the tensor; in the plane with 1/(4 D_R), where the axis has 1/D_R: four times. (Of a nematic,
-/// mean S above 0.4, the director may turn for ever, and moves nothing else: there the order alone is asked.) Drifting:
-/// a watched column, or the order, has a significant `drift`.
+/// correlation time of the tensor; in the plane with 1/(4 D_R), where the axis has 1/D_R: four times. Of a nematic,
+/// mean S above 0.4, the director may turn for ever, and moves nothing else; S is slow, and a window that is too short
+/// shows it too quick: there the crowd's rotation time is the estimate. Drifting: a watched column, or the order, has a
+/// significant `drift`.
 EquilibriumCheck check_equilibrium(const ProductionSeries& series, const FreeClocks& clocks);
 
 /// "0.13 of a rotation time", "5.2 rotation times".

@@ -14,7 +14,7 @@ namespace {
 FreeClocks clocks_of(const Scene& scene, double length) {
     Rods rods;
     rods.push_back(0, {}, {1, 0, 0}, length, 1.0);
-    return free_clocks(scene, *make_mobility(scene)->at(rods, {}), rods);
+    return free_clocks(scene, *make_mobility(scene)->at(rods, {}), rods, 0.1);
 }
 
 }  // namespace
@@ -40,6 +40,16 @@ TEST_CASE("a rod turns in 1/(2 D_R); tumbles turn it, too; without noise nothing
     CHECK(clocks_of(scene, 5.0).diffusion == 0.0);
 }
 
+TEST_CASE("the clocks of rods that are alike know how dense they are") {
+    Scene scene;
+    Rods rods;
+    for (std::uint64_t id : {0, 1}) rods.push_back(id, {}, {1, 0, 0}, 5.0, 1.0);
+    const auto slowdown = [&] { return free_clocks(scene, *make_mobility(scene)->at(rods, {}), rods, 0.46).slowdown; };
+    CHECK(slowdown() == crowding_slowdown(0.46, 5.0, 3));
+    rods.length[1] = 4.0;
+    CHECK(slowdown() == 1.0);
+}
+
 TEST_CASE("a crowd slows its rods: within a factor of two of measured decays of the order tensor") {
     CHECK(crowding_slowdown(0.0, 5.0, 3) == doctest::Approx(1.0));
     const auto within_two = [](double estimate, double measured) {
@@ -52,6 +62,8 @@ TEST_CASE("a crowd slows its rods: within a factor of two of measured decays of 
     CHECK(within_two(crowding_slowdown(0.2, 5.0, 3), 1.9));
     CHECK(within_two(crowding_slowdown(0.35, 5.0, 3), 14.8));
     CHECK(within_two(crowding_slowdown(0.2, 10.0, 3), 4.5));
+    // Of S about its mean in a nematic, from 24 runs together: 190 +- 20.
+    CHECK(within_two(crowding_slowdown(0.46, 5.0, 3), 7.4));
     CHECK(crowding_slowdown(0.2, 0.0, 3) < 2.0);
     for (const double phi : {0.1, 0.3, 0.5, 0.7, 0.9})
         for (const double ratio : {0.0, 1.0, 5.0, 20.0, 100.0}) {

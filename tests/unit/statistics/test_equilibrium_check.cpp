@@ -97,6 +97,11 @@ TEST_CASE("spheres are asked for diffusion and drifts only, a nematic not for it
         nematic.order_tensor[5][row] += S * (1.5 * std::cos(angle) * std::cos(angle) - 0.5);
     }
     CHECK(check_equilibrium(nematic, {100.0, 50.0}).verdict == Verdict::reached);
+    FreeClocks slow = {100.0, 50.0};
+    slow.slowdown = 8.0;
+    CHECK(in_words(check_equilibrium(nematic, slow)) ==
+          "too short to tell: covers 2.5 rotation times; at least 4 are needed, slow as the crowd is");
+    CHECK(check_equilibrium(isotropic(generator, 6000, 60.0), {180.0, 50.0, 0.0, 100.0}).verdict == Verdict::reached);
 }
 
 TEST_CASE("nothing to judge") {
