@@ -36,6 +36,9 @@ struct Trace {
                                     static_cast<double>(report.active_contacts), static_cast<double>(report.rods),
                                     static_cast<double>(report.step), static_cast<double>(report.status)})
             numbers.push_back(number);
+        numbers.insert(numbers.end(), report.wall_force.begin(), report.wall_force.end());
+        for (const Vec3& vector : {report.fixed_rod_force, report.stretch})
+            numbers.insert(numbers.end(), {vector.x, vector.y, vector.z});
     }
 };
 
@@ -207,6 +210,26 @@ TEST_CASE("rods in a box that is open along one direction") {
     check_ranks(scene, start, 8, {2, 5});
 }
 
+TEST_CASE("rods between walls and fixed rods, which no rank owns") {
+    Scene scene = crowd(200, 3.0, 0.2);
+    State start = start_of(scene);
+    Rods pillars;
+    pillars.push_back(0, 0.5 * start.box.edges(), {0, 0, 1}, 4.0, 1.5);  // rods that it meets at first are thrown out
+    pillars.push_back(1, {}, {1, 0, 0}, 3.0, 1.0);
+    const Walls walls = {.faces = {true, false, false}};
+    scene.contact.overlap_limit = 10.0;
+    start.box = Box(start.box.edges(), {false, true, true}, walls)
+                    .with_fixed_rods(std::make_shared<const Rods>(std::move(pillars)));
+    check_ranks(scene, start, 8, {2, 5});
+}
+
+TEST_CASE("soft rods") {
+    Scene scene = crowd(300, 3.0, 0.2);
+    scene.contact.model = ContactModel::wca;
+    scene.time.rms_step = 0.004;
+    check_ranks(scene, start_of(scene), 12, {2, 5});
+}
+
 TEST_CASE("rods that overlap far at the start: forces take them beyond the neighbours that were gathered") {
     Scene scene = crowd(300, 4.0, 0.15);
     scene.time.rms_step = 0.003;  // noise alone would not bring them so far: they have to be gathered within the step
@@ -232,7 +255,6 @@ TEST_CASE("what is not ready for several ranks is refused") {
     CHECK(!refused([](Scene&) {}, ""));
     CHECK(refused([](Scene& s) { s.solver.method = SolverMethod::apgd; }, "solver.method"));
     CHECK(refused([](Scene& s) { s.solver.warm_start = WarmStarts::always; }, "solver.warm_start"));
-    CHECK(refused([](Scene& s) { s.contact.model = ContactModel::wca; }, "contact.model"));
     CHECK(refused([](Scene& s) { s.growth.rate = 1.0; }, "growth"));
     CHECK(refused([](Scene& s) { s.pressure.external = 1.0; }, "pressure"));
 }

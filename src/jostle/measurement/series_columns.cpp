@@ -20,6 +20,13 @@ using Series = TableColumns<RowState>;
 
 constexpr const char* in_compression = "positive in compression";
 
+/// Over the rods of all ranks.
+template <class T, class OfRod>
+T sum_over_rods(const Simulation& simulation, OfRod&& of_rod) {
+    const Domain& domain = simulation.domain();
+    return sum_over_ranks<T>(domain.ranks(), domain.owned_of(simulation.rods().size()), of_rod);
+}
+
 /// "Tr Sigma/3"; in two dimensions "Tr Sigma/2".
 std::string mean_of_normal(const Scene& scene, const char* stress) {
     return std::string("Tr ") + stress + (dimensions_of(scene) == 2 ? "/2" : "/3");
@@ -148,8 +155,8 @@ void add_force_columns(const Scene& scene, Series& series) {
                             const std::vector<Vec3>& centre = row.simulation.rods().centre;
                             const double middle = 0.5 * row.simulation.box().edges()[direction];
                             return force[direction] / row.volume *
-                                   parallel_sum<double>(centre.size(),
-                                                        [&](std::size_t i) { return centre[i][direction] - middle; });
+                                   sum_over_rods<double>(row.simulation,
+                                                         [&](std::size_t i) { return centre[i][direction] - middle; });
                         });
 }
 
@@ -227,13 +234,6 @@ void add_convention_columns(const Scene& scene, Series& series) {
          "to centre line), mean over the steps since the last row",
          in_compression},
         [mean](const RowState& row, std::size_t k) { return mean(row.sums.centre_line_virial, row, k); });
-}
-
-/// Over the rods of all ranks.
-template <class T, class OfRod>
-T sum_over_rods(const Simulation& simulation, OfRod&& of_rod) {
-    const Domain& domain = simulation.domain();
-    return sum_over_ranks<T>(domain.ranks(), domain.owned_of(simulation.rods().size()), of_rod);
 }
 
 Mat3 orientation_virial(const Simulation& of) {

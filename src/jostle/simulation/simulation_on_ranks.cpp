@@ -29,9 +29,6 @@ void Simulation::require_ready_for_ranks() const {
     require_ready(!settings_.pressure, "pressure", "a bath of pressure is");
     require_ready(!settings_.flow, "flow", "a flow is");
     require_ready(!settings_.warm_start, "solver.warm_start", "steps that begin from the forces of the last are");
-    require_ready(!settings_.relinearise, "contact", "contacts that are linearised again are");
-    require_ready(!settings_.rods_are_soft(), "contact.model", "soft rods are");
-    require_ready(state_.box.holds_rods_alone(), "box.walls", "walls and fixed rods are");
     require_ready(state_.box.offset() == 0.0, "box", "a sheared box is");
     require_ready(settings_.method == SolverMethod::automatic || settings_.method == SolverMethod::projected_sor,
                   "solver.method", "solvers for comparison are");

@@ -83,7 +83,8 @@ StepGeometry step_geometry(const State& state, const KnownMotion& known, const S
             known.displacement,
             search_ranges(state, known, sizes, settings, domain),
             settings.corrects_brownian_motion() ? normals_half_way : 0.0,
-            settings.rods_are_soft()};
+            settings.rods_are_soft(),
+            domain.owned_of(state.rods.size())};
 }
 
 }  // namespace jostle

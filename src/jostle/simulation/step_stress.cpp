@@ -99,13 +99,14 @@ void measure_stress_of_known_forces(const ResolvedStep& step, double time_step, 
 }
 
 /// Theory 6: the sum of the contact forces on each wall, and on all fixed rods.
-void measure_wall_forces(const ResolvedStep& step, StepReport& report) {
-    const std::vector<double>& gamma = step.solution.gamma;
+void measure_wall_forces(const ResolvedStep& step, std::span<const double> gamma, StepReport& report) {
+    const Ranks& ranks = step.domain.ranks();
     for (const Wall& wall : walls_of(step.state.box))
-        report.wall_force[wall.number] = parallel_sum<double>(
-            gamma.size(), [&](std::size_t l) { return step.contacts.contact[l].i == wall.body() ? gamma[l] : 0.0; });
+        report.wall_force[wall.number] = sum_over_ranks<double>(ranks, gamma.size(), [&](std::size_t l) {
+            return step.contacts.contact[l].i == wall.body() ? gamma[l] : 0.0;
+        });
     if (!step.state.box.fixed_rods()) return;
-    report.fixed_rod_force = parallel_sum<Vec3>(gamma.size(), [&](std::size_t l) {
+    report.fixed_rod_force = sum_over_ranks<Vec3>(ranks, gamma.size(), [&](std::size_t l) {
         const Contact& contact = step.contacts.contact[l];
         return is_fixed_rod(contact.i) ? -gamma[l] * contact.normal : Vec3{};
     });
@@ -121,7 +122,7 @@ void measure_stress(const ResolvedStep& step, const SimulationSettings& settings
     const ForcesHere forces(step);
     const std::span<const double> gamma = forces.get();
     measure_collision_stress(step, gamma, settings, axis, report, moments);
-    measure_wall_forces(step, report);
+    measure_wall_forces(step, gamma, report);
     report.active_contacts = sum_over_ranks<std::size_t>(
         step.domain.ranks(), gamma.size(), [&](std::size_t l) { return gamma[l] > 0.0 ? std::size_t{1} : 0; });
 }
