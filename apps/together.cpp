@@ -43,7 +43,6 @@ void Together::require_ready(const Scene& scene) const {
     refuse_if(scene.pressure.external.has_value(), "pressure.external", "a pressure that is given is");
     refuse_if(has_flow(scene), "flow", "flows are");
     refuse_if(scene.mobility.model == MobilityModel::hydrodynamic, "mobility.model", "rods that a fluid couples are");
-    refuse_if(scene.solver.warm_start == WarmStarts::always, "solver.warm_start", "steps that begin warm are");
     refuse_if(scene.solver.method != SolverMethod::automatic && scene.solver.method != SolverMethod::projected_sor,
               "solver.method", "solvers for comparison are");
 }

@@ -33,6 +33,7 @@ SCENES = {
     "walls": changed(CROWD, box={"periodic": [True, True, False]}, walls={"faces": [False, False, True]},
                      output={"contacts": True}),
     "soft": changed(CROWD, contact={"model": "wca"}, time={"step": 0.0001, "production": 0.003}),
+    "warm": changed(CROWD, solver={"warm_start": "always"}),
     "swimmers": changed(CROWD, motion={"self_propulsion": 1.0, "self_propulsion_deviation": 0.3, "tumble_rate": 2.0,
                                        "tumble_time": 0.2, "reversal_rate": 1.0},
                         output={"active_stress_lag": 0.1}),
@@ -116,7 +117,7 @@ def test_files_are_those_of_a_run_alone(tmp_path, name):
 
 
 @needs_mpi
-@pytest.mark.parametrize("name", ["dense", "swimmers"])
+@pytest.mark.parametrize("name", ["dense", "swimmers", "warm"])
 def test_stopped_and_going_on_with_other_numbers_of_ranks(tmp_path, name):
     """4 ranks, 3, none and 5, stopped by SIGUSR1 to mpirun, which ranks live on with, and to the process."""
     scene = with_steps(SCENES[name], 400)
@@ -171,7 +172,7 @@ def test_the_wall_time_of_the_first_rank_stops_all(tmp_path):
 @needs_mpi
 @pytest.mark.parametrize("changes, key", [
     ({"growth": {"rate": 0.1, "division_length": 7.0}}, "growth.rate"), ({"flow": {"shear_rate": 1.0}}, "flow"),
-    ({"solver": {"warm_start": "always"}}, "solver.warm_start"), ({"box": {"volume_fraction": 5.0}}, "box.volume_fraction")])
+    ({"solver": {"method": "apgd"}}, "solver.method"), ({"box": {"volume_fraction": 5.0}}, "box.volume_fraction")])
 def test_what_is_refused_leaves_no_trace(tmp_path, changes, key):
     """What ranks cannot do, and what nobody can: one line of the first rank, and nothing on the disk."""
     write_scene(tmp_path, changed(CROWD, **changes))

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <unordered_map>
 #include <utility>
 
+#include "jostle/math/mixed_bits.hpp"
 #include "jostle/rods/space_filling_order.hpp"
 
 namespace jostle {
@@ -235,6 +237,31 @@ Rods Domain::at_first_rank(const Rods& rods) const {
         for (const CarriedRod& rod : arrived) append(all, rod, carries);
         if (!are_more) return all;
     }
+}
+
+// Every rod is known to one rank that follows from its id, which the others ask.
+std::vector<int> Domain::ranks_of(const Rods& rods, std::span<const std::uint64_t> ids) const {
+    const auto count = static_cast<std::size_t>(ranks_.count());
+    const auto asked_of = [&](std::uint64_t id) { return mixed_bits(id) % count; };
+    std::vector<std::vector<std::uint64_t>> known(count), asked(count);
+    for (std::size_t row = 0; row < owned_of(rods.size()); ++row) known[asked_of(rods.id[row])].push_back(rods.id[row]);
+    for (const std::uint64_t id : ids) asked[asked_of(id)].push_back(id);
+    std::unordered_map<std::uint64_t, int> rank_of;
+    const auto told = ranks_.deal(known);
+    for (std::size_t rank = 0; rank < count; ++rank)
+        for (const std::uint64_t id : told[rank]) rank_of[id] = static_cast<int>(rank);
+    std::vector<std::vector<int>> answers(count);
+    const auto questions = ranks_.deal(asked);
+    for (std::size_t rank = 0; rank < count; ++rank)
+        for (const std::uint64_t id : questions[rank]) {
+            const auto found = rank_of.find(id);
+            answers[rank].push_back(found == rank_of.end() ? nobody : found->second);
+        }
+    const auto arrived = ranks_.deal(answers);
+    std::vector<std::size_t> next(count, 0);
+    std::vector<int> ranks;
+    for (const std::uint64_t id : ids) ranks.push_back(arrived[asked_of(id)][next[asked_of(id)]++]);
+    return ranks;
 }
 
 bool Domain::is_uneven(const Rods& rods) const {

@@ -57,6 +57,11 @@ public:
     /// needs no more memory than for the rods and one slice.
     Rods at_first_rank(const Rods& rods) const;
 
+    static constexpr int nobody = -1;
+    /// The rank that has each of these rods as its own now, or `nobody`. All ranks call it together, each with ids of
+    /// its own choice.
+    std::vector<int> ranks_of(const Rods& rods, std::span<const std::uint64_t> ids) const;
+
     /// Whether own rods are so unevenly shared out that cuts should be moved.
     bool is_uneven(const Rods& rods) const;
 

@@ -78,6 +78,8 @@ public:
     /// Of the last step, with the gaps before it.
     const Contacts& contacts() const { return contacts_; }
     const ContactSolution& contact_solution() const { return solution_; }
+    /// Whether this rank counts the contact: of two ranks that have it one does.
+    bool counts(std::size_t contact) const { return elsewhere_.empty() || elsewhere_[contact] == 0; }
     /// The parts of its collision stress, if the settings ask for them.
     const CollisionMoments& collision_moments() const { return moments_; }
     /// Ids of the rows that these refer to: those of `rods()`, but where cells have died, or rows changed, since.
@@ -86,7 +88,9 @@ public:
 private:
     std::optional<StepReport> attempt();
     bool neighbours_are_known(const StepGeometry& geometry);
-    void gather(double skin);
+    void gather(double skins);
+    void gather_forces();
+    void remember_forces(const Contacts& contacts, std::span<const double> gamma);
     std::optional<Vec3> follow_schedule();
     std::optional<Vec3> edges_of_step();
     void renumber();
@@ -111,10 +115,14 @@ private:
     Domain domain_;
     std::size_t shared_rods_ = 0;
     bool balance_ = false, gathering_ = false;  ///< when neighbours are listed next; in the next step
+    double skin_ = 0.0;                         ///< of the step that found its neighbours not known
+    std::size_t counted_forces_ = 0;            ///< previous forces that this rank counts: the first ones
+    std::size_t previous_forces_in_all_ = 0;
 
     // Results of the last step.
     std::vector<LineageEvent> lineage_;
     Contacts contacts_;
+    std::vector<std::uint8_t> elsewhere_;  ///< (contacts) whether another rank counts it; (0) of one process
     ContactSolution solution_;
     CollisionMoments moments_;
     std::vector<std::uint64_t> ids_before_;  ///< (N) of the rows in that step, if rows have changed since
