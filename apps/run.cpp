@@ -203,12 +203,14 @@ bool Run::wall_time_is_over(double still_to_be_done) const {
 void Run::show_progress(const std::string& remark) {
     if (!is_first()) return;
     const SeriesTable& series = measurement_.series();
-    const double filled =
-        ranks_.alone() ? total_volume(simulation_.rods(), simulation_.box().dimensions()) / simulation_.box().volume()
-                       : volume_fraction_;
     const auto last = [&](const char* column) {
         return series.rows() == 0 ? std::nan("") : series.column(column).back();
     };
+    // Of ranks each knows its own rods: all together have measured the last row.
+    const double filled =
+        ranks_.alone() ? total_volume(simulation_.rods(), simulation_.box().dimensions()) / simulation_.box().volume()
+        : series.rows() == 0 ? volume_fraction_
+                             : last("phi");
     progress_.show({simulation_.clock().step, simulation_.clock().time, filled, last("Z"),
                     measurement_.sums().run_max_overlap / thinnest(), last("iterations"), last("contacts"),
                     measurement_.fraction_done(), remark});

@@ -7,7 +7,6 @@
 #include "jostle/run_files/version.hpp"
 #include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_motion.hpp"
-#include "jostle/scene/schedule.hpp"
 #include "run_record.hpp"
 
 using namespace jostle;
@@ -39,8 +38,8 @@ void Together::require_ready(const Scene& scene) const {
     };
     refuse_if(grows(scene), "growth.rate", "cells that grow are");
     refuse_if(!scene.springs.file.empty(), "springs.file", "springs are");
-    refuse_if(has_schedule(scene), "schedule", "schedules are");
-    refuse_if(scene.pressure.external.has_value(), "pressure.external", "a pressure that is given is");
+    refuse_if(scene.pressure.external && thermal_energy(scene) == 0.0, "pressure.external",
+              "compression without thermal motion is");
     refuse_if(has_flow(scene), "flow", "flows are");
     refuse_if(scene.mobility.model == MobilityModel::hydrodynamic, "mobility.model", "rods that a fluid couples are");
     refuse_if(scene.solver.method != SolverMethod::automatic && scene.solver.method != SolverMethod::projected_sor,

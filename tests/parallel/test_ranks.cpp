@@ -266,5 +266,12 @@ TEST_CASE("what is not ready for several ranks is refused") {
     CHECK(!refused([](Scene&) {}, ""));
     CHECK(refused([](Scene& s) { s.solver.method = SolverMethod::apgd; }, "solver.method"));
     CHECK(refused([](Scene& s) { s.growth.rate = 1.0; }, "growth"));
-    CHECK(refused([](Scene& s) { s.pressure.external = 1.0; }, "pressure"));
+    CHECK(refused(
+        [](Scene& s) {
+            s.motion.brownian = false;
+            s.time.rms_step.reset();
+            s.time.step = 0.01;
+            s.pressure.external = 1.0;
+        },
+        "pressure"));
 }

@@ -249,14 +249,14 @@ NematicOrder order_of(const Simulation& of) {
     return nematic_order(sum, of.rods_in_all(), of.box().dimensions());
 }
 
+}  // namespace
+
 double volume_of_rods(const Simulation& of) {
     const Rods& rods = of.rods();
     return sum_over_rods<double>(of, [&, dimensions = of.box().dimensions()](std::size_t i) {
         return rod_volume(rods.length[i], rods.diameter[i], dimensions);
     });
 }
-
-}  // namespace
 
 RowState::RowState(const Simulation& of, const StepSums& since_last_row)
     : simulation(of),

@@ -82,7 +82,8 @@ std::optional<Vec3> Simulation::follow_schedule() {
 /// The edges of the box at the end of the step, if it changes.
 std::optional<Vec3> Simulation::edges_of_step() {
     std::optional<Vec3> edges = follow_schedule();
-    if (settings_.pressure) edges = edges_under_pressure(state_, *settings_.pressure, settings_.kT, context());
+    if (settings_.pressure)
+        edges = edges_under_pressure(state_, rods_in_all(), *settings_.pressure, settings_.kT, context());
     return edges;
 }
 

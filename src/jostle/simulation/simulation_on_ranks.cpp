@@ -37,8 +37,7 @@ std::vector<Item> share_of(const std::vector<Item>& items, const Ranks& ranks) {
 void Simulation::require_ready_for_ranks() const {
     require_ready(!growth_, "growth", "cells that grow are");
     require_ready(state_.springs.empty(), "springs", "springs are");
-    require_ready(!settings_.schedule, "schedule", "a schedule is");
-    require_ready(!settings_.pressure, "pressure", "a bath of pressure is");
+    require_ready(!opens_box(), "pressure", "compression without thermal motion is");
     require_ready(!settings_.flow, "flow", "a flow is");
     require_ready(state_.box.offset() == 0.0, "box", "a sheared box is");
     require_ready(settings_.method == SolverMethod::automatic || settings_.method == SolverMethod::projected_sor,
