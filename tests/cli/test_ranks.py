@@ -3,6 +3,7 @@ threads, also when a run stops, is killed, and goes on with another number."""
 
 import json
 import os
+import pathlib
 import shutil
 import signal
 import subprocess
@@ -12,6 +13,7 @@ import pytest
 from jostle_command import (BAD_INPUT, DISK, DONE, JOSTLE, RESULTS, STOPPED, changed, checkpoint_step, datasets, finish,
                             kill, run, rows_of, start, started, wait_until, with_steps, write_scene)
 
+GOLDEN = pathlib.Path(__file__).resolve().parent.parent / "golden/scenes"
 MPIRUN = os.environ.get("JOSTLE_MPIRUN", "")
 needs_mpi = pytest.mark.skipif(not MPIRUN, reason="MPI was not found when this was configured")
 
@@ -38,6 +40,11 @@ SCENES = {
     "bath": changed(CROWD, pressure={"external": 2.0, "coupling": "orthogonal"}),
     "piston": changed(CROWD, box={"periodic": [True, True, False]}, walls={"faces": [False, False, True]},
                       pressure={"external": 2.0, "coupling": "piston"}),
+    "fixed": changed(CROWD, rods={"length": 2.0, "fixed": str(GOLDEN / "fixed_rods.csv"), "start": "random"},
+                     box={"volume_fraction": 0.15}, output={"contacts": True}),
+    "chains": changed(CROWD, box={"volume_fraction": None, "edges": [14.0, 7.5, 7.5]},
+                      rods={"count": None, "length": 2.0, "start": "file", "file": str(GOLDEN / "chains_rods.csv")},
+                      springs={"file": str(GOLDEN / "chains_springs.csv")}, time={"step": 0.001, "production": 0.03}),
     "swimmers": changed(CROWD, motion={"self_propulsion": 1.0, "self_propulsion_deviation": 0.3, "tumble_rate": 2.0,
                                        "tumble_time": 0.2, "reversal_rate": 1.0},
                         output={"active_stress_lag": 0.1}),

@@ -28,8 +28,8 @@ struct Trace {
     std::vector<std::size_t> owned, near, ghosts;
 
     void add(const StepReport& report) {
-        for (const Mat3& tensor :
-             {report.collision_virial, report.torque_virial, report.centre_of_mass_virial, report.centre_line_virial})
+        for (const Mat3& tensor : {report.collision_virial, report.spring_virial, report.torque_virial,
+                                   report.centre_of_mass_virial, report.centre_line_virial})
             for (int k = 0; k < 9; ++k) numbers.push_back(tensor(k / 3, k % 3));
         for (const double number : {report.residual, report.max_overlap, static_cast<double>(report.iterations),
                                     static_cast<double>(report.solves), static_cast<double>(report.contacts),
@@ -239,6 +239,19 @@ TEST_CASE("steps that begin from the forces of the last one, which rods take alo
     scene.time.rms_step.reset();
     scene.time.step = 0.02;
     check_ranks(scene, start_of(scene), 12, {2, 5});
+}
+
+TEST_CASE("springs between rods however far apart, of swimmers that turn round") {
+    Scene scene = crowd(200, 3.0, 0.15);
+    scene.springs.file = "none";  // they are given
+    scene.motion.self_propulsion = 5.0;
+    scene.motion.reversal_rate = 5.0;
+    scene.time.rms_step = 0.03;
+    State start = start_of(scene);
+    for (std::uint64_t k = 0; k < 60; ++k)
+        start.springs.push_back({.rod_1 = k, .rod_2 = (7 * k + 3) % 200, .s_1 = 1.5, .s_2 = -1.5, .stiffness = 2.0});
+    hold_nearest_images(start.springs, start.rods, start.box);
+    check_ranks(scene, start, 12, {2, 3, 8});
 }
 
 TEST_CASE("rods that overlap far at the start: forces take them beyond the neighbours that were gathered") {

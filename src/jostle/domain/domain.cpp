@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -109,18 +110,17 @@ void Domain::share_out(Rods& rods) {
     owned_ = rods.size();
 }
 
-void Domain::gather(Rods& rods, const Box& box, double range, bool balance) {
+void Domain::migrate(Rods& rods, const Box& box, bool balance) {
     if (!is_shared()) return;
     std::vector<std::uint32_t> own(owned_);
     for (std::uint32_t row = 0; row < own.size(); ++row) own[row] = row;
     rods = reordered(rods, own);
     if (balance || !std::exchange(is_cut_, true))
         partition_.balance(ranks_, box, rods.centre, std::vector<float>(rods.size(), 1.0F));
-    migrate(rods, box);
-    fetch_ghosts(rods, box, range);
+    bring_home(rods, box);
 }
 
-void Domain::migrate(Rods& rods, const Box& box) {
+void Domain::bring_home(Rods& rods, const Box& box) {
     const Carries carries = carried_by_any(ranks_, rods);
     const auto here = static_cast<std::size_t>(ranks_.rank());
     std::vector<std::vector<CarriedRod>> to(static_cast<std::size_t>(ranks_.count()));
@@ -142,7 +142,9 @@ void Domain::migrate(Rods& rods, const Box& box) {
     owned_ = counts_.owned = rods.size();
 }
 
-void Domain::fetch_ghosts(Rods& rods, const Box& box, double range) {
+void Domain::fetch_ghosts(Rods& rods, const Box& box, double range, std::span<const Wanted> wanted) {
+    if (!is_shared()) return;
+    const std::set<Wanted> in_any_case(wanted.begin(), wanted.end());
     const Carries carries = carried_by_any(ranks_, rods);
     Bounds own;
     std::vector<Bounds> bounds(owned_);
@@ -151,10 +153,12 @@ void Domain::fetch_ghosts(Rods& rods, const Box& box, double range) {
     std::vector<std::vector<CarriedRod>> to(of_rank.size());
     std::vector<std::vector<std::uint32_t>> sent(of_rank.size());
     for (std::size_t q = 0; q < of_rank.size(); ++q) {
-        if (q == static_cast<std::size_t>(ranks_.rank()) || owned_ == 0 || !are_near(own, of_rank[q], range, box))
-            continue;
+        if (q == static_cast<std::size_t>(ranks_.rank()) || owned_ == 0) continue;
+        const bool any_near = are_near(own, of_rank[q], range, box);
+        if (!any_near && in_any_case.empty()) continue;
         for (std::uint32_t row = 0; row < owned_; ++row) {
-            if (!are_near(bounds[row], of_rank[q], range, box)) continue;
+            const bool is_near = any_near && are_near(bounds[row], of_rank[q], range, box);
+            if (!is_near && !in_any_case.contains({row, static_cast<int>(q)})) continue;
             sent[q].push_back(row);
             to[q].push_back(carried(rods, row));
         }

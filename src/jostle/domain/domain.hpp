@@ -42,9 +42,25 @@ public:
     void share_out(Rods& rods);
 
     /// Brings every rod to the rank whose part it is in, with all that it carries, in an order that keeps neighbours
-    /// near in memory, and then ghosts: all rods whose surfaces may be nearer than `range` to one of this rank's.
-    /// `balance`: cuts are moved first. All ranks call it together, as they do the rest.
-    void gather(Rods& rods, const Box& box, double range, bool balance);
+    /// near in memory; ghosts are left. `balance`: cuts are moved first. All ranks call it together, as they do the
+    /// rest.
+    void migrate(Rods& rods, const Box& box, bool balance);
+
+    /// An own rod that another rank has to know, wherever it is.
+    struct Wanted {
+        std::uint32_t row;
+        int rank;
+        auto operator<=>(const Wanted&) const = default;
+    };
+
+    /// Then brings ghosts: all rods whose surfaces may be nearer than `range` to one of this rank's, and those wanted.
+    void fetch_ghosts(Rods& rods, const Box& box, double range, std::span<const Wanted> wanted = {});
+
+    /// Both.
+    void gather(Rods& rods, const Box& box, double range, bool balance) {
+        migrate(rods, box, balance);
+        fetch_ghosts(rods, box, range);
+    }
 
     /// The rods and ghosts in these rows are left, in the order of `rows`, which begins with all own ones: the others
     /// have no neighbour here.
@@ -110,8 +126,7 @@ private:
     };
 
     Exchange& exchange_of(std::size_t bytes) const;
-    void migrate(Rods& rods, const Box& box);
-    void fetch_ghosts(Rods& rods, const Box& box, double range);
+    void bring_home(Rods& rods, const Box& box);
     void note_ghosts(std::span<const std::uint32_t> from, const std::vector<std::vector<std::uint32_t>>& sent);
 
     Ranks ranks_;

@@ -41,6 +41,7 @@ Simulation::Simulation(State state, std::unique_ptr<Mobility> mobility, std::vec
                           .value = std::to_string(settings_.time_step),
                           .problem = "the time step must be positive"});
     previous_forces_in_all_ = counted_forces_ = state_.previous_forces.size();
+    settings_.has_springs = !state_.springs.empty();
     require_sound_springs(state_.springs);
     require_sheared(state_, settings_.flow);
     if (!settings_.growth) return;

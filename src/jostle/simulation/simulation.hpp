@@ -86,10 +86,21 @@ public:
     const std::vector<std::uint64_t>& contact_ids() const { return ids_before_.empty() ? state_.rods.id : ids_before_; }
 
 private:
+    /// A spring, and its number among those of all ranks: by these forces of springs are added up.
+    struct NumberedSpring {
+        std::uint64_t number;
+        Spring spring;
+    };
+
     std::optional<StepReport> attempt();
     bool neighbours_are_known(const StepGeometry& geometry);
     void gather(double skins);
     void gather_forces();
+    std::vector<NumberedSpring> counted_springs() const;
+    void take_springs(std::vector<NumberedSpring> springs);
+    void gather_springs(std::span<const NumberedSpring> counted);
+    std::vector<std::uint32_t> with_held_rods(std::vector<std::uint32_t> rows) const;
+    std::vector<Domain::Wanted> rods_held_elsewhere() const;
     void remember_forces(const Contacts& contacts, std::span<const double> gamma);
     std::optional<Vec3> follow_schedule();
     std::optional<Vec3> edges_of_step();
@@ -118,6 +129,7 @@ private:
     double skin_ = 0.0;                         ///< of the step that found its neighbours not known
     std::size_t counted_forces_ = 0;            ///< previous forces that this rank counts: the first ones
     std::size_t previous_forces_in_all_ = 0;
+    std::vector<std::uint64_t> spring_numbers_;  ///< of the springs, ascending, where ranks share them
 
     // Results of the last step.
     std::vector<LineageEvent> lineage_;

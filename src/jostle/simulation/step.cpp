@@ -63,7 +63,8 @@ std::optional<StepReport> Simulation::attempt() {
     update_sizes(*mobility);
     report.rods = sizes_.rods;
 
-    find_known_motion(state_, motions_, *mobility, context(), known_);  // 1  U_known, and where it takes the rods
+    find_known_motion(state_, settings_.has_springs, domain_, motions_, *mobility, context(),
+                      known_);  // 1  U_known, and where it takes the rods
     timer.finish(StepPhase::known_velocity);
 
     const StepGeometry geometry = step_geometry(state_, known_, sizes_, settings_, domain_, previous_forces_in_all_);

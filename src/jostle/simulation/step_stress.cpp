@@ -73,7 +73,7 @@ void measure_collision_stress(const ResolvedStep& step, std::span<const double> 
 
 /// Theory 1, eqs. (1.16) and (1.22): the forces of springs, and the torques of motions, as the step began, with moments
 /// half way through what forces do in it (eq. 1.17).
-void measure_stress_of_known_forces(const ResolvedStep& step, double time_step, StepReport& report) {
+void measure_stress_of_known_forces(const ResolvedStep& step, double time_step, bool has_springs, StepReport& report) {
     const Rods& rods = step.state.rods;
     Velocities by_forces = step.known.by_forces;
     parallel_for(step.solution.rods.size(), [&](std::size_t k) {
@@ -88,9 +88,10 @@ void measure_stress_of_known_forces(const ResolvedStep& step, double time_step, 
         half_way.centre[i] = centre_after(rods.centre[i], by_forces.linear[i], half_step);
         half_way.axis[i] = axis_after(rods.axis[i], by_forces.angular[i], half_step);
     });
-    if (!step.state.springs.empty())
+    if (has_springs)
         report.spring_virial =
-            sum_of_spring_stresses(step.state.springs, step.known.pulls, rods, half_way.centre, half_way.axis);
+            sum_of_spring_stresses(step.state.springs, step.known.pulls, rods, half_way.centre, half_way.axis,
+                                   step.domain.ranks(), step.domain.owned_of(rods.size()));
     const std::vector<Vec3>& torque = step.known.exerted.torque;
     report.torque_virial =
         sum_over_ranks<Mat3>(step.domain.ranks(), step.domain.owned_of(torque.size()), [&](std::size_t i) {
@@ -116,7 +117,8 @@ void measure_wall_forces(const ResolvedStep& step, std::span<const double> gamma
 
 void measure_stress(const ResolvedStep& step, const SimulationSettings& settings, std::vector<Vec3>& half_way_axis,
                     StepReport& report, CollisionMoments& moments) {
-    if (step.known.by_forces.size() > 0) measure_stress_of_known_forces(step, settings.time_step, report);
+    if (step.known.by_forces.size() > 0)
+        measure_stress_of_known_forces(step, settings.time_step, settings.has_springs, report);
     if (settings.corrects_brownian_motion()) find_half_way_axes(step, settings.time_step, half_way_axis);
     const std::span<const Vec3> axis = settings.corrects_brownian_motion() ? half_way_axis : step.state.rods.axis;
     const ForcesHere forces(step);
