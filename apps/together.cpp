@@ -36,7 +36,7 @@ void Together::require_ready(const Scene& scene) const {
                               .problem = std::string(what) + " not ready for several ranks",
                               .suggestion = "Start the run without a launcher, or without the key"});
     };
-    refuse_if(grows(scene), "growth.rate", "cells that grow are");
+    refuse_if(grows(scene) && swims(scene), "growth.rate", "swimmers that grow are");
     refuse_if(scene.pressure.external && thermal_energy(scene) == 0.0, "pressure.external",
               "compression without thermal motion is");
     refuse_if(has_flow(scene), "flow", "flows are");

@@ -45,6 +45,12 @@ SCENES = {
     "chains": changed(CROWD, box={"volume_fraction": None, "edges": [14.0, 7.5, 7.5]},
                       rods={"count": None, "length": 2.0, "start": "file", "file": str(GOLDEN / "chains_rods.csv")},
                       springs={"file": str(GOLDEN / "chains_springs.csv")}, time={"step": 0.001, "production": 0.03}),
+    "colony": changed(CROWD, box={"volume_fraction": None, "edges": [40.0, 40.0, 40.0], "periodic": [False, False, False]},
+                      rods={"count": 1, "length": 2.0}, motion={"brownian": False},
+                      growth={"rate": 1.0, "division_length": 3.0, "rate_deviation": 0.1, "stall_force": 100.0},
+                      time={"step": 0.02, "production": 8.0}, output={"contacts": True, "stress_per_rod": True}),
+    "dying": changed(CROWD, box={"volume_fraction": 0.1}, rods={"diameter_deviation": 0.05},
+                     growth={"rate": 3.0, "division_length": 4.0, "death_rate": 0.5, "division_every": 3}),
     "swimmers": changed(CROWD, motion={"self_propulsion": 1.0, "self_propulsion_deviation": 0.3, "tumble_rate": 2.0,
                                        "tumble_time": 0.2, "reversal_rate": 1.0},
                         output={"active_stress_lag": 0.1}),
@@ -128,7 +134,7 @@ def test_files_are_those_of_a_run_alone(tmp_path, name):
 
 
 @needs_mpi
-@pytest.mark.parametrize("name", ["dense", "swimmers", "warm"])
+@pytest.mark.parametrize("name", ["dense", "swimmers", "warm", "dying"])
 def test_stopped_and_going_on_with_other_numbers_of_ranks(tmp_path, name):
     """4 ranks, 3, none and 5, stopped by SIGUSR1 to mpirun, which ranks live on with, and to the process."""
     scene = with_steps(SCENES[name], 400)
@@ -182,7 +188,7 @@ def test_the_wall_time_of_the_first_rank_stops_all(tmp_path):
 
 @needs_mpi
 @pytest.mark.parametrize("changes, key", [
-    ({"growth": {"rate": 0.1, "division_length": 7.0}}, "growth.rate"), ({"flow": {"shear_rate": 1.0}}, "flow"),
+    ({"growth": {"rate": 0.1, "division_length": 7.0}, "motion": {"self_propulsion": 1.0}}, "growth.rate"), ({"flow": {"shear_rate": 1.0}}, "flow"),
     ({"solver": {"method": "apgd"}}, "solver.method"), ({"box": {"volume_fraction": 5.0}}, "box.volume_fraction")])
 def test_what_is_refused_leaves_no_trace(tmp_path, changes, key):
     """What ranks cannot do, and what nobody can: one line of the first rank, and nothing on the disk."""

@@ -254,6 +254,43 @@ TEST_CASE("springs between rods however far apart, of swimmers that turn round")
     check_ranks(scene, start, 12, {2, 3, 8});
 }
 
+/// Cells that grow, divide, and press on each other.
+Scene colony(std::uint64_t count) {
+    Scene scene = crowd(count, 2.0, 0.0);
+    scene.box.volume_fraction.reset();
+    scene.box.edges = Vec3{40.0, 40.0, 40.0};
+    scene.box.periodic = {false, false, false};
+    scene.motion.brownian = false;
+    scene.time.rms_step.reset();
+    scene.time.step = 0.02;
+    scene.growth.rate = 2.0;
+    scene.growth.rate_deviation = 0.2;
+    scene.growth.division_every = 5;
+    scene.growth.division_length = 3.0;
+    return scene;
+}
+
+TEST_CASE("a colony from one cell: ranks without rods, and rods that are born") {
+    Scene scene = colony(1);
+    scene.growth.stall_force = 100.0;
+    const State start = start_of(scene);
+    const Trace alone = trace_of(scene, start, 320, no_ranks);
+    REQUIRE(alone.rods.size() > 20);
+    for (const int count : {2, 3, 5}) check_same(trace_of(scene, start, 320, count), alone);
+}
+
+TEST_CASE("cells of several diameters that divide and die, in noise") {
+    Scene scene = colony(60);
+    scene.motion.brownian = true;
+    scene.time.step.reset();
+    scene.time.rms_step = 0.05;
+    scene.growth.death_rate = 5.0;
+    scene.growth.rate = 3.0;
+    scene.growth.division_every = 3;
+    scene.rods.diameter_deviation = 0.05;
+    check_ranks(scene, start_of(scene), 40, {2, 5});
+}
+
 TEST_CASE("rods that overlap far at the start: forces take them beyond the neighbours that were gathered") {
     Scene scene = crowd(300, 4.0, 0.15);
     scene.time.rms_step = 0.003;  // noise alone would not bring them so far: they have to be gathered within the step
@@ -278,7 +315,6 @@ TEST_CASE("what is not ready for several ranks is refused") {
     };
     CHECK(!refused([](Scene&) {}, ""));
     CHECK(refused([](Scene& s) { s.solver.method = SolverMethod::apgd; }, "solver.method"));
-    CHECK(refused([](Scene& s) { s.growth.rate = 1.0; }, "growth"));
     CHECK(refused(
         [](Scene& s) {
             s.motion.brownian = false;

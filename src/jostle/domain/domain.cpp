@@ -16,8 +16,8 @@ namespace {
 
 /// Cuts are moved where a rank has more rods than this many times the mean.
 constexpr double uneven = 1.1;
-/// So many ids are in a slice of the rods that rank 0 gathers.
-constexpr std::uint64_t slice = std::uint64_t{1} << 20;
+/// So many rods at most are in a slice of those that rank 0 gathers.
+constexpr std::size_t slice = std::size_t{1} << 20;
 
 /// All that a rod carries.
 struct CarriedRod {
@@ -112,9 +112,7 @@ void Domain::share_out(Rods& rods) {
 
 void Domain::migrate(Rods& rods, const Box& box, bool balance) {
     if (!is_shared()) return;
-    std::vector<std::uint32_t> own(owned_);
-    for (std::uint32_t row = 0; row < own.size(); ++row) own[row] = row;
-    rods = reordered(rods, own);
+    rods = own_rods(rods);
     if (balance || !std::exchange(is_cut_, true))
         partition_.balance(ranks_, box, rods.centre, std::vector<float>(rods.size(), 1.0F));
     bring_home(rods, box);
@@ -210,6 +208,18 @@ void Domain::keep(Rods& rods, std::span<const std::uint32_t> rows) {
     note_ghosts(from, sent);
 }
 
+Rods Domain::own_rods(const Rods& rods) const {
+    std::vector<std::uint32_t> own(owned_of(rods.size()));
+    std::iota(own.begin(), own.end(), 0U);
+    return reordered(rods, own);
+}
+
+void Domain::replace(Rods& rods, Rods own) {
+    rods = std::move(own);
+    owned_ = rods.size();
+    note_ghosts({}, {});
+}
+
 Rods Domain::all_rods(const Rods& rods) const {
     if (!is_shared()) return rods;
     const Carries carries = carried_by_any(ranks_, rods);
@@ -230,16 +240,20 @@ Rods Domain::at_first_rank(const Rods& rods) const {
     std::sort(own.begin(), own.end(), [&](std::uint32_t a, std::uint32_t b) { return rods.id[a] < rods.id[b]; });
     Rods all;
     all.founder_bits = rods.founder_bits;
-    std::size_t sent = 0;
-    for (std::uint64_t end = slice;; end += slice) {
-        std::vector<std::vector<CarriedRod>> to(static_cast<std::size_t>(ranks_.count()));
-        for (; sent < own.size() && rods.id[own[sent]] < end; ++sent) to[0].push_back(carried(rods, own[sent]));
-        const bool are_more = ranks_.any(sent < own.size());
+    // Ids may lie far apart: a slice ends where a rank would send more than its part of it.
+    const auto count = static_cast<std::size_t>(ranks_.count());
+    const std::size_t part = std::max<std::size_t>(1, slice / count);
+    for (std::size_t sent = 0;;) {
+        const double beyond = sent + part < own.size() ? static_cast<double>(rods.id[own[sent + part]]) : INFINITY;
+        const double end = -ranks_.largest(-beyond);
+        std::vector<std::vector<CarriedRod>> to(count);
+        for (; sent < own.size() && static_cast<double>(rods.id[own[sent]]) < end; ++sent)
+            to[0].push_back(carried(rods, own[sent]));
         std::vector<CarriedRod> arrived;
         for (const auto& of_rank : ranks_.deal(to)) arrived.insert(arrived.end(), of_rank.begin(), of_rank.end());
         std::sort(arrived.begin(), arrived.end(), [](const CarriedRod& a, const CarriedRod& b) { return a.id < b.id; });
         for (const CarriedRod& rod : arrived) append(all, rod, carries);
-        if (!are_more) return all;
+        if (end == INFINITY) return all;
     }
 }
 

@@ -66,6 +66,10 @@ public:
     /// have no neighbour here.
     void keep(Rods& rods, std::span<const std::uint32_t> rows);
 
+    Rods own_rods(const Rods& rods) const;
+    /// These are the own rods from now on, and ghosts are left: cells have divided or died.
+    void replace(Rods& rods, Rods own);
+
     /// The rods of all ranks, in any order.
     Rods all_rods(const Rods& rods) const;
 

@@ -69,7 +69,7 @@ public:
     const Clock& clock() const { return state_.clock; }
     /// Whether the rods come to equilibrium, but for springs: they are thermal, none grows, no motion drives them.
     bool keeps_equilibrium() const;
-    /// Who was born and who died after the last step.
+    /// Who was born and who died after the last step, of all ranks.
     std::span<const LineageEvent> lineage() const { return lineage_; }
     /// The model of the fluid: `at(rods(), box())` is M of the rods as they stand.
     const Mobility& mobility() const { return *mobility_; }
@@ -114,6 +114,7 @@ private:
     bool opens_box() const { return settings_.pressure && settings_.kT == 0.0; }
     void turn_round(std::span<const std::uint32_t> rows);
     void divide();
+    std::vector<LineageEvent> divide_own();
     void begin_threads();
     StepContext context() const { return {settings_.seed, state_.clock.step, settings_.time_step}; }
 

@@ -43,7 +43,6 @@ std::unordered_map<std::uint64_t, std::uint32_t> rows_of(const Rods& rods, std::
 }  // namespace
 
 void Simulation::require_ready_for_ranks() const {
-    require_ready(!growth_, "growth", "cells that grow are");
     require_ready(!opens_box(), "pressure", "compression without thermal motion is");
     require_ready(!settings_.flow, "flow", "a flow is");
     require_ready(state_.box.offset() == 0.0, "box", "a sheared box is");
@@ -103,6 +102,21 @@ void Simulation::gather_forces() {
         });
     state_.previous_forces = std::move(here.items);
     counted_forces_ = here.counted;
+}
+
+/// Own cells divide and die; ghosts are left if any cell has, of any rank. Returns what all ranks will tell.
+std::vector<LineageEvent> Simulation::divide_own() {
+    const Ranks& ranks = domain_.ranks();
+    Rods own = domain_.own_rods(state_.rods);
+    const auto own_events = growth_->divide(own, state_.box, state_.clock.step, settings_.time_step);
+    std::vector<LineageEvent> events;
+    for (const auto& of_rank : ranks.deal(std::vector(static_cast<std::size_t>(ranks.count()), own_events)))
+        events.insert(events.end(), of_rank.begin(), of_rank.end());
+    if (events.empty()) return events;
+    std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+    domain_.replace(state_.rods, std::move(own));
+    shared_rods_ = static_cast<std::size_t>(ranks.sum(static_cast<std::int64_t>(state_.rods.size())));
+    return events;
 }
 
 /// Those that this rank counts, and then those that another one does.

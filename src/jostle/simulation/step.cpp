@@ -124,7 +124,10 @@ Contacts Simulation::find_contacts(const StepGeometry& geometry, StepReport& rep
 void Simulation::advance(KnownMotion& known, const ContactSolution& solution, const Contacts& contacts,
                          StepReport& report) {
     Rods& rods = state_.rods;
-    if (growth_) growth_->slow_down(rods, solution.rods, solution.forces, settings_.time_step);
+    if (growth_) {
+        growth_->slow_down(rods, solution.rods, solution.forces, settings_.time_step);
+        domain_.refresh<double>([&](std::uint32_t row) -> double& { return rods.cycle[row].share; });
+    }
     std::vector<Vec3>&centre = known.end.centre, &axis = known.end.axis;
     const double dt = settings_.time_step;
     parallel_for(solution.rods.size(), [&](std::size_t k) {
@@ -167,7 +170,8 @@ void Simulation::divide() {
     lineage_.clear();
     if (!growth_->is_due(state_.clock.step)) return;
     std::vector<std::uint64_t> ids = state_.rods.id;
-    lineage_ = growth_->divide(state_.rods, state_.box, state_.clock.step, settings_.time_step);
+    lineage_ = domain_.is_shared() ? divide_own()
+                                   : growth_->divide(state_.rods, state_.box, state_.clock.step, settings_.time_step);
     if (lineage_.empty()) return;
     rows_change();
     ids_before_ = std::move(ids);
