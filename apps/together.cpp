@@ -5,7 +5,6 @@
 #include "jostle/disk/checksum.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/run_files/version.hpp"
-#include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "run_record.hpp"
 
@@ -39,7 +38,6 @@ void Together::require_ready(const Scene& scene) const {
     refuse_if(grows(scene) && swims(scene), "growth.rate", "swimmers that grow are");
     refuse_if(scene.pressure.external && thermal_energy(scene) == 0.0, "pressure.external",
               "compression without thermal motion is");
-    refuse_if(has_flow(scene), "flow", "flows are");
     refuse_if(scene.mobility.model == MobilityModel::hydrodynamic, "mobility.model", "rods that a fluid couples are");
     refuse_if(scene.solver.method != SolverMethod::automatic && scene.solver.method != SolverMethod::projected_sor,
               "solver.method", "solvers for comparison are");

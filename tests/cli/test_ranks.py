@@ -51,6 +51,7 @@ SCENES = {
                       time={"step": 0.02, "production": 8.0}, output={"contacts": True, "stress_per_rod": True}),
     "dying": changed(CROWD, box={"volume_fraction": 0.1}, rods={"diameter_deviation": 0.05},
                      growth={"rate": 3.0, "division_length": 4.0, "death_rate": 0.5, "division_every": 3}),
+    "sheared": changed(CROWD, flow={"shear_rate": 1.8, "start_strain": 0.3}),
     "swimmers": changed(CROWD, motion={"self_propulsion": 1.0, "self_propulsion_deviation": 0.3, "tumble_rate": 2.0,
                                        "tumble_time": 0.2, "reversal_rate": 1.0},
                         output={"active_stress_lag": 0.1}),
@@ -188,7 +189,7 @@ def test_the_wall_time_of_the_first_rank_stops_all(tmp_path):
 
 @needs_mpi
 @pytest.mark.parametrize("changes, key", [
-    ({"growth": {"rate": 0.1, "division_length": 7.0}, "motion": {"self_propulsion": 1.0}}, "growth.rate"), ({"flow": {"shear_rate": 1.0}}, "flow"),
+    ({"growth": {"rate": 0.1, "division_length": 7.0}, "motion": {"self_propulsion": 1.0}}, "growth.rate"),
     ({"solver": {"method": "apgd"}}, "solver.method"), ({"box": {"volume_fraction": 5.0}}, "box.volume_fraction")])
 def test_what_is_refused_leaves_no_trace(tmp_path, changes, key):
     """What ranks cannot do, and what nobody can: one line of the first rank, and nothing on the disk."""

@@ -254,6 +254,25 @@ TEST_CASE("springs between rods however far apart, of swimmers that turn round")
     check_ranks(scene, start, 12, {2, 3, 8});
 }
 
+TEST_CASE("rods in a shear flow, also where the copies above get other numbers") {
+    Scene scene = crowd(300, 3.0, 0.25);
+    scene.flow.shear_rate = 10.0;
+    const State start = start_of(scene);
+    check_ranks(scene, start, 40, {2, 3, 8});
+    scene.flow.shear_rate = 0.0;
+    scene.flow.strain_amplitude = 0.7;
+    scene.flow.frequency = 10.0;
+    check_ranks(scene, start, 40, {5});
+}
+
+TEST_CASE("few rods in a small box that flows: rods that meet their own images and others in several") {
+    Scene scene = crowd(6, 3.0, 0.0);
+    scene.box.volume_fraction.reset();
+    scene.box.edges = Vec3{4.2, 4.4, 4.6};
+    scene.flow.shear_rate = 10.0;
+    check_ranks(scene, start_of(scene), 60, {2, 3});
+}
+
 /// Cells that grow, divide, and press on each other.
 Scene colony(std::uint64_t count) {
     Scene scene = crowd(count, 2.0, 0.0);

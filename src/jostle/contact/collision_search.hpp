@@ -64,8 +64,8 @@ public:
 
     /// To be told where the box is stretched, and all centres with it.
     void stretch(const Vec3& by) { neighbours_.stretch(by); }
-    /// To be told where it is sheared, and all centres with it: x by `strain` y. Images have to keep their numbers.
-    void shear(double strain) { neighbours_.shear(strain); }
+    /// To be told where it is sheared, and all centres with it (`NeighbourList::shear`).
+    void shear(double strain, std::int32_t copies) { neighbours_.shear(strain, copies); }
 
     // Where other ranks have rods, too (NeighbourList):
 

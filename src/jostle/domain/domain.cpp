@@ -78,20 +78,31 @@ Bounds bounds_of(const Rods& rods, std::size_t row) {
     return bounds;
 }
 
+/// Whether two come nearer than `range` along direction k, in some periodic image, if a is displaced by `shift`.
+bool are_near_along(int k, const Bounds& a, double shift, const Bounds& b, double range, const Box& box) {
+    const double edge = box.edges()[k], low = a.low[k] + shift;
+    // a displaced by m edges, low + m edge <= high_b + range: the farthest such one is the only one to ask.
+    double below = b.high[k] + range - low;
+    if (box.periodic()[static_cast<std::size_t>(k)])
+        below -= std::floor(below / edge) * edge;  // how far low is then below high_b + range
+    else if (below < 0.0)
+        return false;
+    return b.high[k] + range - below + (a.high[k] - a.low[k]) >= b.low[k] - range;
+}
+
 /// Whether two come nearer than `range` along every direction, in some periodic image.
 bool are_near(const Bounds& a, const Bounds& b, double range, const Box& box) {
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < 3; ++k)
         if (!(b.low[k] <= b.high[k])) return false;
-        const double edge = box.edges()[k];
-        // a displaced by m edges, low_a + m edge <= high_b + range: the farthest such one is the only one to ask.
-        double below = b.high[k] + range - a.low[k];
-        if (box.periodic()[static_cast<std::size_t>(k)])
-            below -= std::floor(below / edge) * edge;  // how far low_a is then below high_b + range
-        else if (below < 0.0)
-            return false;
-        if (b.high[k] + range - below + (a.high[k] - a.low[k]) < b.low[k] - range) return false;
-    }
-    return true;
+    if (!are_near_along(2, a, 0.0, b, range, box)) return false;
+    if (box.offset() == 0.0)
+        return are_near_along(0, a, 0.0, b, range, box) && are_near_along(1, a, 0.0, b, range, box);
+    // Copies above are displaced along x: every one that is near along y has to be asked.
+    const double edge = box.edges().y;
+    const double last = std::floor((b.high.y + range - a.low.y) / edge);
+    for (double copy = std::ceil((b.low.y - range - a.high.y) / edge); copy <= last; ++copy)
+        if (are_near_along(0, a, copy * box.offset(), b, range, box)) return true;
+    return false;
 }
 
 }  // namespace

@@ -273,7 +273,7 @@ RowState::RowState(const Simulation& of, const StepSums& since_last_row)
       order(order_of(of)) {
     if (const auto& flow = of.settings().flow)
         flow_virial = sum_of_flow_stresses(of.rods(), *of.mobility().at(of.rods(), of.box()), *flow, of.clock(),
-                                           of.settings().time_step);
+                                           of.settings().time_step, of.domain());
 }
 
 TableColumns<RowState> series_columns(const Scene& scene) {
