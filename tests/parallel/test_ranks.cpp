@@ -60,7 +60,7 @@ void check_same(const Trace& a, const Trace& b) {
 
 constexpr int no_ranks = 0;
 
-/// `rebalance_every`: so many steps; 0: where ranks have more rods than others.
+/// `rebalance_every`: so many steps; 0: where ranks have more work than others.
 Trace trace_of(const Scene& scene, const State& start, int steps, int rank_count, int rebalance_every = 0) {
     Trace trace;
     const auto run = [&](const Ranks& ranks) {

@@ -14,11 +14,6 @@ namespace jostle {
 
 namespace {
 
-/// Cuts are moved where a rank has more rods than this many times the mean.
-constexpr double uneven = 1.1;
-/// So many rods at most are in a slice of those that rank 0 gathers.
-constexpr std::size_t slice = std::size_t{1} << 20;
-
 /// All that a rod carries.
 struct CarriedRod {
     Vec3 centre, axis;
@@ -121,11 +116,11 @@ void Domain::share_out(Rods& rods) {
     owned_ = rods.size();
 }
 
-void Domain::migrate(Rods& rods, const Box& box, bool balance) {
+void Domain::migrate(Rods& rods, const Box& box, bool balance, double work) {
     if (!is_shared()) return;
     rods = own_rods(rods);
     if (balance || !std::exchange(is_cut_, true))
-        partition_.balance(ranks_, box, rods.centre, std::vector<float>(rods.size(), 1.0F));
+        partition_.balance(ranks_, box, rods.centre, std::vector(rods.size(), static_cast<float>(work)));
     bring_home(rods, box);
 }
 
@@ -243,7 +238,7 @@ Rods Domain::all_rods(const Rods& rods) const {
     return all;
 }
 
-Rods Domain::at_first_rank(const Rods& rods) const {
+Rods Domain::at_first_rank(const Rods& rods, std::size_t slice) const {
     if (!is_shared()) return in_order_of_ids(rods);
     const Carries carries = carried_by_any(ranks_, rods);
     std::vector<std::uint32_t> own(owned_);
@@ -291,13 +286,6 @@ std::vector<int> Domain::ranks_of(const Rods& rods, std::span<const std::uint64_
     std::vector<int> ranks;
     for (const std::uint64_t id : ids) ranks.push_back(arrived[asked_of(id)][next[asked_of(id)]++]);
     return ranks;
-}
-
-bool Domain::is_uneven(const Rods& rods) const {
-    const auto own = static_cast<std::int64_t>(owned_of(rods.size()));
-    const double most = ranks_.largest(static_cast<double>(own));
-    const double mean = static_cast<double>(ranks_.sum(own)) / ranks_.count();
-    return most > uneven * mean;
 }
 
 Exchange& Domain::exchange_of(std::size_t bytes) const {

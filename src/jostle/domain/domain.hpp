@@ -42,9 +42,9 @@ public:
     void share_out(Rods& rods);
 
     /// Brings every rod to the rank whose part it is in, with all that it carries, in an order that keeps neighbours
-    /// near in memory; ghosts are left. `balance`: cuts are moved first. All ranks call it together, as they do the
-    /// rest.
-    void migrate(Rods& rods, const Box& box, bool balance);
+    /// near in memory; ghosts are left. `balance`: cuts are moved first, so that all ranks have the same work to do,
+    /// where each of this rank's rods costs `work`. All ranks call it together, as they do the rest.
+    void migrate(Rods& rods, const Box& box, bool balance, double work = 1.0);
 
     /// An own rod that another rank has to know, wherever it is.
     struct Wanted {
@@ -75,15 +75,12 @@ public:
 
     /// The rods of all ranks in the order of ids, for rank 0; none for the others. They come in slices, so that rank 0
     /// needs no more memory than for the rods and one slice.
-    Rods at_first_rank(const Rods& rods) const;
+    Rods at_first_rank(const Rods& rods, std::size_t slice = std::size_t{1} << 20) const;
 
     static constexpr int nobody = -1;
     /// The rank that has each of these rods as its own now, or `nobody`. All ranks call it together, each with ids of
     /// its own choice.
     std::vector<int> ranks_of(const Rods& rods, std::span<const std::uint64_t> ids) const;
-
-    /// Whether own rods are so unevenly shared out that cuts should be moved.
-    bool is_uneven(const Rods& rods) const;
 
     /// Values of ghosts from their owners: value_of(row) is the place of a row's value, of plain numbers.
     template <class T, class ValueOf>

@@ -59,7 +59,7 @@ public:
     void begin() override {
         if (!requests_.empty()) MPI_Startall(static_cast<int>(requests_.size()), requests_.data());  // none is an error
     }
-    void end() override { wait_for_all(requests_); }
+    void wait() override { wait_for_all(requests_); }
 
 private:
     std::vector<MPI_Request> requests_;

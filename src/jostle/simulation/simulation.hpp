@@ -15,6 +15,7 @@
 #include "jostle/simulation/simulation_settings.hpp"
 #include "jostle/simulation/size_bounds.hpp"
 #include "jostle/simulation/step_report.hpp"
+#include "jostle/simulation/work.hpp"
 #include "jostle/state/state.hpp"
 #include "jostle/stress/collision_moments.hpp"
 
@@ -54,7 +55,7 @@ public:
     void unite();
     /// The rods of all ranks, in the order of ids: for tests and small systems.
     Rods rods_of_all_ranks() const;
-    /// At the beginning of the next step rods may change their rank, for cuts that give all ranks the same number.
+    /// At the beginning of the next step rods may change their rank, for cuts that give all ranks the same work.
     void rebalance() { balance_ = gathering_ = true; }
 
     /// Makes one step (step.cpp). Where contacts cannot be resolved the report says so, and the state stays as it was.
@@ -127,8 +128,9 @@ private:
     Domain domain_;
     std::size_t shared_rods_ = 0;
     bool balance_ = false, gathering_ = false;  ///< when neighbours are listed next; in the next step
-    double skin_ = 0.0;                         ///< of the step that found its neighbours not known
-    std::size_t counted_forces_ = 0;            ///< previous forces that this rank counts: the first ones
+    Work work_;
+    double skin_ = 0.0;               ///< of the step that found its neighbours not known
+    std::size_t counted_forces_ = 0;  ///< previous forces that this rank counts: the first ones
     std::size_t previous_forces_in_all_ = 0;
     std::vector<std::uint64_t> spring_numbers_;  ///< of the springs, ascending, where ranks share them
 

@@ -78,7 +78,10 @@ void Simulation::gather(double skins) {
     const double range = 2.0 * (ranks.largest(searches_.rods.range_needed()) + skins * skin_);
     rows_change();
     std::vector<NumberedSpring> springs = counted_springs();
-    domain_.migrate(state_.rods, state_.box, ranks.any(balance_) || domain_.is_uneven(state_.rods));
+    const std::size_t owned = domain_.owned_of(state_.rods.size());
+    const bool balance = ranks.any(balance_) || work_.is_uneven(ranks);
+    domain_.migrate(state_.rods, state_.box, balance, work_.of_rod(ranks, owned));
+    if (balance) work_ = {};
     if (settings_.has_springs) gather_springs(springs);
     domain_.fetch_ghosts(state_.rods, state_.box, beyond_rounding * range, rods_held_elsewhere());
     NeighbourList& neighbours = searches_.rods.neighbours();

@@ -42,6 +42,7 @@ std::size_t contacts_of_all_ranks(const ContactProblem& problem) {
 }  // namespace
 
 StepReport Simulation::step() {
+    const WorkTimer timer(domain_.ranks(), work_);
     for (double skins = 1.0;; skins *= 2.0) {  // one does, but where a box changes much
         if (const auto report = attempt()) return *report;
         gather(skins);
