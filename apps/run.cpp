@@ -83,13 +83,14 @@ ExitCode Run::go() {
             report.contacts = simulation_.contacts().size();
             return give_up(report, error.what(), "");
         }
+        find_thinnest();
         if (report.status == LcpStatus::interrupted) return stop_early(decide().reason_to_stop);
         longest_step_ = std::max(longest_step_, std::accumulate(report.seconds.begin(), report.seconds.end(), 0.0));
         if (const auto failure = step_failure(report, scene_, thinnest()))
             return give_up(report, *failure, advice(report, scene_, simulation_));
         const Due due = measurement_.add(report, simulation_);
         require_same(report, due);
-        if (grows(scene_)) files_->append_lineage(simulation_);
+        if (grows(scene_) && is_first()) files_->append_lineage(simulation_);
         if (simulation_.rods_in_all() > 0) {
             write_what_is_due(due, now.checkpoint_is_overdue);
             if (progress_.is_due()) show_progress();
@@ -116,6 +117,14 @@ bool Run::is_alone() {
 
 double Run::thinnest() const {
     return ranks_.alone() ? smallest_diameter(scene_, simulation_.rods()) : thinnest_;
+}
+
+/// Cells that die may have been the thinnest of all ranks'.
+void Run::find_thinnest() {
+    if (ranks_.alone() || !grows(scene_) || simulation_.rods_in_all() == 0) return;
+    const Rods& rods = simulation_.rods();
+    const double of_rank = rods.size() == 0 ? INFINITY : smallest_diameter(scene_, rods);
+    thinnest_ = -ranks_.largest(-of_rank);
 }
 
 /// Signals may have reached any rank; clocks, and what there is of the series, are those of the first.
@@ -203,12 +212,14 @@ bool Run::wall_time_is_over(double still_to_be_done) const {
 void Run::show_progress(const std::string& remark) {
     if (!is_first()) return;
     const SeriesTable& series = measurement_.series();
-    const double filled =
-        ranks_.alone() ? total_volume(simulation_.rods(), simulation_.box().dimensions()) / simulation_.box().volume()
-                       : volume_fraction_;
     const auto last = [&](const char* column) {
         return series.rows() == 0 ? std::nan("") : series.column(column).back();
     };
+    // Of ranks each knows its own rods: all together have measured the last row.
+    const double filled =
+        ranks_.alone() ? total_volume(simulation_.rods(), simulation_.box().dimensions()) / simulation_.box().volume()
+        : series.rows() == 0 ? volume_fraction_
+                             : last("phi");
     progress_.show({simulation_.clock().step, simulation_.clock().time, filled, last("Z"),
                     measurement_.sums().run_max_overlap / thinnest(), last("iterations"), last("contacts"),
                     measurement_.fraction_done(), remark});

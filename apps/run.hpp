@@ -39,6 +39,7 @@ private:
 
     void share();
     bool is_alone();
+    void find_thinnest();
     double thinnest() const;
     bool is_first() const { return files_ != nullptr; }
     Decision decide();

@@ -5,10 +5,7 @@
 #include "jostle/disk/checksum.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/run_files/version.hpp"
-#include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_motion.hpp"
-#include "jostle/scene/scene_walls.hpp"
-#include "jostle/scene/schedule.hpp"
 #include "run_record.hpp"
 
 using namespace jostle;
@@ -38,16 +35,10 @@ void Together::require_ready(const Scene& scene) const {
                               .problem = std::string(what) + " not ready for several ranks",
                               .suggestion = "Start the run without a launcher, or without the key"});
     };
-    refuse_if(grows(scene), "growth.rate", "cells that grow are");
-    refuse_if(!scene.springs.file.empty(), "springs.file", "springs are");
-    refuse_if(has_schedule(scene), "schedule", "schedules are");
-    refuse_if(scene.pressure.external.has_value(), "pressure.external", "a pressure that is given is");
-    refuse_if(has_flow(scene), "flow", "flows are");
-    refuse_if(scene_walls(scene).any(), "box.walls", "walls are");
-    refuse_if(!scene.rods.fixed.empty(), "rods.fixed", "fixed rods are");
+    refuse_if(grows(scene) && swims(scene), "growth.rate", "swimmers that grow are");
+    refuse_if(scene.pressure.external && thermal_energy(scene) == 0.0, "pressure.external",
+              "compression without thermal motion is");
     refuse_if(scene.mobility.model == MobilityModel::hydrodynamic, "mobility.model", "rods that a fluid couples are");
-    refuse_if(scene.contact.model == ContactModel::wca, "contact.model", "soft rods are");
-    refuse_if(scene.solver.warm_start == WarmStarts::always, "solver.warm_start", "steps that begin warm are");
     refuse_if(scene.solver.method != SolverMethod::automatic && scene.solver.method != SolverMethod::projected_sor,
               "solver.method", "solvers for comparison are");
 }

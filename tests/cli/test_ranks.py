@@ -3,6 +3,7 @@ threads, also when a run stops, is killed, and goes on with another number."""
 
 import json
 import os
+import pathlib
 import shutil
 import signal
 import subprocess
@@ -12,6 +13,7 @@ import pytest
 from jostle_command import (BAD_INPUT, DISK, DONE, JOSTLE, RESULTS, STOPPED, changed, checkpoint_step, datasets, finish,
                             kill, run, rows_of, start, started, wait_until, with_steps, write_scene)
 
+GOLDEN = pathlib.Path(__file__).resolve().parent.parent / "golden/scenes"
 MPIRUN = os.environ.get("JOSTLE_MPIRUN", "")
 needs_mpi = pytest.mark.skipif(not MPIRUN, reason="MPI was not found when this was configured")
 
@@ -30,6 +32,26 @@ SCENES = {
     "few": changed(CROWD, box={"volume_fraction": 0.15}, rods={"count": 3, "start": "random"}),
     "plane": changed(CROWD, box={"volume_fraction": None, "area_fraction": 0.3, "dimensions": 2}),
     "pulled": changed(CROWD, forces={"on_rods": [1.0, 0.0, 0.0], "drift": True, "alignment_energy": 2.0}),
+    "walls": changed(CROWD, box={"periodic": [True, True, False]}, walls={"faces": [False, False, True]},
+                     output={"contacts": True}),
+    "soft": changed(CROWD, contact={"model": "wca"}, time={"step": 0.0001, "production": 0.003}),
+    "warm": changed(CROWD, solver={"warm_start": "always"}),
+    "squeezed": changed(CROWD, box={"volume_fraction": 0.2}, schedule={"volume_fraction": [[0.3, 0.25]], "kT": [[0.2, 2.0]]}),
+    "bath": changed(CROWD, pressure={"external": 2.0, "coupling": "orthogonal"}),
+    "piston": changed(CROWD, box={"periodic": [True, True, False]}, walls={"faces": [False, False, True]},
+                      pressure={"external": 2.0, "coupling": "piston"}),
+    "fixed": changed(CROWD, rods={"length": 2.0, "fixed": str(GOLDEN / "fixed_rods.csv"), "start": "random"},
+                     box={"volume_fraction": 0.15}, output={"contacts": True}),
+    "chains": changed(CROWD, box={"volume_fraction": None, "edges": [14.0, 7.5, 7.5]},
+                      rods={"count": None, "length": 2.0, "start": "file", "file": str(GOLDEN / "chains_rods.csv")},
+                      springs={"file": str(GOLDEN / "chains_springs.csv")}, time={"step": 0.001, "production": 0.03}),
+    "colony": changed(CROWD, box={"volume_fraction": None, "edges": [40.0, 40.0, 40.0], "periodic": [False, False, False]},
+                      rods={"count": 1, "length": 2.0}, motion={"brownian": False},
+                      growth={"rate": 1.0, "division_length": 3.0, "rate_deviation": 0.1, "stall_force": 100.0},
+                      time={"step": 0.02, "production": 8.0}, output={"contacts": True, "stress_per_rod": True}),
+    "dying": changed(CROWD, box={"volume_fraction": 0.1}, rods={"diameter_deviation": 0.05},
+                     growth={"rate": 3.0, "division_length": 4.0, "death_rate": 0.5, "division_every": 3}),
+    "sheared": changed(CROWD, flow={"shear_rate": 1.8, "start_strain": 0.3}),
     "swimmers": changed(CROWD, motion={"self_propulsion": 1.0, "self_propulsion_deviation": 0.3, "tumble_rate": 2.0,
                                        "tumble_time": 0.2, "reversal_rate": 1.0},
                         output={"active_stress_lag": 0.1}),
@@ -113,7 +135,7 @@ def test_files_are_those_of_a_run_alone(tmp_path, name):
 
 
 @needs_mpi
-@pytest.mark.parametrize("name", ["dense", "swimmers"])
+@pytest.mark.parametrize("name", ["dense", "swimmers", "warm", "dying"])
 def test_stopped_and_going_on_with_other_numbers_of_ranks(tmp_path, name):
     """4 ranks, 3, none and 5, stopped by SIGUSR1 to mpirun, which ranks live on with, and to the process."""
     scene = with_steps(SCENES[name], 400)
@@ -167,8 +189,8 @@ def test_the_wall_time_of_the_first_rank_stops_all(tmp_path):
 
 @needs_mpi
 @pytest.mark.parametrize("changes, key", [
-    ({"growth": {"rate": 0.1, "division_length": 7.0}}, "growth.rate"), ({"flow": {"shear_rate": 1.0}}, "flow"),
-    ({"solver": {"warm_start": "always"}}, "solver.warm_start"), ({"box": {"volume_fraction": 5.0}}, "box.volume_fraction")])
+    ({"growth": {"rate": 0.1, "division_length": 7.0}, "motion": {"self_propulsion": 1.0}}, "growth.rate"),
+    ({"solver": {"method": "apgd"}}, "solver.method"), ({"box": {"volume_fraction": 5.0}}, "box.volume_fraction")])
 def test_what_is_refused_leaves_no_trace(tmp_path, changes, key):
     """What ranks cannot do, and what nobody can: one line of the first rank, and nothing on the disk."""
     write_scene(tmp_path, changed(CROWD, **changes))

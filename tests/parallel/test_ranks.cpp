@@ -28,14 +28,17 @@ struct Trace {
     std::vector<std::size_t> owned, near, ghosts;
 
     void add(const StepReport& report) {
-        for (const Mat3& tensor :
-             {report.collision_virial, report.torque_virial, report.centre_of_mass_virial, report.centre_line_virial})
+        for (const Mat3& tensor : {report.collision_virial, report.spring_virial, report.torque_virial,
+                                   report.centre_of_mass_virial, report.centre_line_virial})
             for (int k = 0; k < 9; ++k) numbers.push_back(tensor(k / 3, k % 3));
         for (const double number : {report.residual, report.max_overlap, static_cast<double>(report.iterations),
                                     static_cast<double>(report.solves), static_cast<double>(report.contacts),
                                     static_cast<double>(report.active_contacts), static_cast<double>(report.rods),
                                     static_cast<double>(report.step), static_cast<double>(report.status)})
             numbers.push_back(number);
+        numbers.insert(numbers.end(), report.wall_force.begin(), report.wall_force.end());
+        for (const Vec3& vector : {report.fixed_rod_force, report.stretch})
+            numbers.insert(numbers.end(), {vector.x, vector.y, vector.z});
     }
 };
 
@@ -57,7 +60,7 @@ void check_same(const Trace& a, const Trace& b) {
 
 constexpr int no_ranks = 0;
 
-/// `rebalance_every`: so many steps; 0: where ranks have more rods than others.
+/// `rebalance_every`: so many steps; 0: where ranks have more work than others.
 Trace trace_of(const Scene& scene, const State& start, int steps, int rank_count, int rebalance_every = 0) {
     Trace trace;
     const auto run = [&](const Ranks& ranks) {
@@ -207,6 +210,106 @@ TEST_CASE("rods in a box that is open along one direction") {
     check_ranks(scene, start, 8, {2, 5});
 }
 
+TEST_CASE("rods between walls and fixed rods, which no rank owns") {
+    Scene scene = crowd(200, 3.0, 0.2);
+    State start = start_of(scene);
+    Rods pillars;
+    pillars.push_back(0, 0.5 * start.box.edges(), {0, 0, 1}, 4.0, 1.5);  // rods that it meets at first are thrown out
+    pillars.push_back(1, {}, {1, 0, 0}, 3.0, 1.0);
+    const Walls walls = {.faces = {true, false, false}};
+    scene.contact.overlap_limit = 10.0;
+    start.box = Box(start.box.edges(), {false, true, true}, walls)
+                    .with_fixed_rods(std::make_shared<const Rods>(std::move(pillars)));
+    check_ranks(scene, start, 8, {2, 5});
+}
+
+TEST_CASE("soft rods") {
+    Scene scene = crowd(300, 3.0, 0.2);
+    scene.contact.model = ContactModel::wca;
+    scene.time.rms_step = 0.004;
+    check_ranks(scene, start_of(scene), 12, {2, 5});
+}
+
+TEST_CASE("steps that begin from the forces of the last one, which rods take along") {
+    Scene scene = crowd(400, 3.0, 0.4);
+    scene.solver.warm_start = WarmStarts::always;
+    check_ranks(scene, start_of(scene), 12, {2, 3, 8});
+    scene.motion.brownian = false;
+    scene.motion.self_propulsion = 1.0;
+    scene.time.rms_step.reset();
+    scene.time.step = 0.02;
+    check_ranks(scene, start_of(scene), 12, {2, 5});
+}
+
+TEST_CASE("springs between rods however far apart, of swimmers that turn round") {
+    Scene scene = crowd(200, 3.0, 0.15);
+    scene.springs.file = "none";  // they are given
+    scene.motion.self_propulsion = 5.0;
+    scene.motion.reversal_rate = 5.0;
+    scene.time.rms_step = 0.03;
+    State start = start_of(scene);
+    for (std::uint64_t k = 0; k < 60; ++k)
+        start.springs.push_back({.rod_1 = k, .rod_2 = (7 * k + 3) % 200, .s_1 = 1.5, .s_2 = -1.5, .stiffness = 2.0});
+    hold_nearest_images(start.springs, start.rods, start.box);
+    check_ranks(scene, start, 12, {2, 3, 8});
+}
+
+TEST_CASE("rods in a shear flow, also where the copies above get other numbers") {
+    Scene scene = crowd(300, 3.0, 0.25);
+    scene.flow.shear_rate = 10.0;
+    const State start = start_of(scene);
+    check_ranks(scene, start, 40, {2, 3, 8});
+    scene.flow.shear_rate = 0.0;
+    scene.flow.strain_amplitude = 0.7;
+    scene.flow.frequency = 10.0;
+    check_ranks(scene, start, 40, {5});
+}
+
+TEST_CASE("few rods in a small box that flows: rods that meet their own images and others in several") {
+    Scene scene = crowd(6, 3.0, 0.0);
+    scene.box.volume_fraction.reset();
+    scene.box.edges = Vec3{4.2, 4.4, 4.6};
+    scene.flow.shear_rate = 10.0;
+    check_ranks(scene, start_of(scene), 60, {2, 3});
+}
+
+/// Cells that grow, divide, and press on each other.
+Scene colony(std::uint64_t count) {
+    Scene scene = crowd(count, 2.0, 0.0);
+    scene.box.volume_fraction.reset();
+    scene.box.edges = Vec3{40.0, 40.0, 40.0};
+    scene.box.periodic = {false, false, false};
+    scene.motion.brownian = false;
+    scene.time.rms_step.reset();
+    scene.time.step = 0.02;
+    scene.growth.rate = 2.0;
+    scene.growth.rate_deviation = 0.2;
+    scene.growth.division_every = 5;
+    scene.growth.division_length = 3.0;
+    return scene;
+}
+
+TEST_CASE("a colony from one cell: ranks without rods, and rods that are born") {
+    Scene scene = colony(1);
+    scene.growth.stall_force = 100.0;
+    const State start = start_of(scene);
+    const Trace alone = trace_of(scene, start, 320, no_ranks);
+    REQUIRE(alone.rods.size() > 20);
+    for (const int count : {2, 3, 5}) check_same(trace_of(scene, start, 320, count), alone);
+}
+
+TEST_CASE("cells of several diameters that divide and die, in noise") {
+    Scene scene = colony(60);
+    scene.motion.brownian = true;
+    scene.time.step.reset();
+    scene.time.rms_step = 0.05;
+    scene.growth.death_rate = 5.0;
+    scene.growth.rate = 3.0;
+    scene.growth.division_every = 3;
+    scene.rods.diameter_deviation = 0.05;
+    check_ranks(scene, start_of(scene), 40, {2, 5});
+}
+
 TEST_CASE("rods that overlap far at the start: forces take them beyond the neighbours that were gathered") {
     Scene scene = crowd(300, 4.0, 0.15);
     scene.time.rms_step = 0.003;  // noise alone would not bring them so far: they have to be gathered within the step
@@ -231,8 +334,12 @@ TEST_CASE("what is not ready for several ranks is refused") {
     };
     CHECK(!refused([](Scene&) {}, ""));
     CHECK(refused([](Scene& s) { s.solver.method = SolverMethod::apgd; }, "solver.method"));
-    CHECK(refused([](Scene& s) { s.solver.warm_start = WarmStarts::always; }, "solver.warm_start"));
-    CHECK(refused([](Scene& s) { s.contact.model = ContactModel::wca; }, "contact.model"));
-    CHECK(refused([](Scene& s) { s.growth.rate = 1.0; }, "growth"));
-    CHECK(refused([](Scene& s) { s.pressure.external = 1.0; }, "pressure"));
+    CHECK(refused(
+        [](Scene& s) {
+            s.motion.brownian = false;
+            s.time.rms_step.reset();
+            s.time.step = 0.01;
+            s.pressure.external = 1.0;
+        },
+        "pressure"));
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,10 @@ struct StepGeometry {
     SearchRanges ranges;
     double normals_after = 0.0;    ///< normals and arms of contacts are those after this part of the known motion
     bool forces_at_start = false;  ///< forces follow from where rods are before the step: there they meet their images
+    /// Of so many first rows contacts with walls and fixed rods are sought; the others are other ranks' rods.
+    std::size_t own = std::numeric_limits<std::size_t>::max();
+
+    std::size_t own_rods() const { return std::min(own, rods.size()); }
 };
 
 /// Finds the pairs that collide in a step: most neighbours do not, and are kept out of the contact problem.
@@ -59,8 +64,8 @@ public:
 
     /// To be told where the box is stretched, and all centres with it.
     void stretch(const Vec3& by) { neighbours_.stretch(by); }
-    /// To be told where it is sheared, and all centres with it: x by `strain` y. Images have to keep their numbers.
-    void shear(double strain) { neighbours_.shear(strain); }
+    /// To be told where it is sheared, and all centres with it (`NeighbourList::shear`).
+    void shear(double strain, std::int32_t copies) { neighbours_.shear(strain, copies); }
 
     // Where other ranks have rods, too (NeighbourList):
 

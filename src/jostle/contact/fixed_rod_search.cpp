@@ -32,7 +32,7 @@ double FixedRodSearch::find(const StepGeometry& step, Contacts& contacts) {
     });
     grid_.fit(step.box, range_from_centre(step.rods, *step.box.fixed_rods(), interaction_range_));
     const std::size_t first = contacts.size();
-    const double overlap = append_found(count, blocks_, contacts, [&](std::size_t row, FoundContacts& found) {
+    const double overlap = append_found(step.own_rods(), blocks_, contacts, [&](std::size_t row, FoundContacts& found) {
         search(static_cast<std::uint32_t>(row), step, found);
     });
     remember(contacts, first);
@@ -79,7 +79,7 @@ Contacts FixedRodSearch::violated(const StepGeometry& step, const EndConfigurati
         parallel_max(count, 0.0, [&](std::size_t k) { return static_cast<double>(end.displacement[k].farthest); });
     grid_.fit(step.box, range_from_centre(step.rods, *step.box.fixed_rods(), interaction_range_) + farthest);
     append_found(count, blocks_, all, [&](std::size_t k, FoundContacts& found) {
-        search_again(end.rows[k], end.displacement[k].farthest, step, end, found.contacts);
+        if (end.rows[k] < step.own) search_again(end.rows[k], end.displacement[k].farthest, step, end, found.contacts);
     });
     remember(all, 0);
     return all;

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cmath>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "jostle/contact/cell_list.hpp"
 #include "jostle/contact/neighbour_pairs.hpp"
@@ -57,10 +59,29 @@ void NeighbourList::stretch(const Vec3& by) {
 
 // Nearest points m apart, of rods whose centres are m + a apart, where a is at most one length: a strain e brings them
 // nearer by e |m_y + a_y| |m_x|/|m| at most, which is e (|m|/2 + length).
-void NeighbourList::shear(double strain) {
+void NeighbourList::shear(double strain, std::int32_t copies) {
     squeezed_ += std::fabs(strain) * 0.5 * (centre_range_ + longest_);
     parallel_for(reference_.centre.size(),
                  [&](std::size_t i) { reference_.centre[i].x += strain * reference_.centre[i].y; });
+    if (copies != 0) renumber_copies(copies);
+}
+
+/// Pairs of the same two rods stay in the order of their images.
+void NeighbourList::renumber_copies(std::int32_t copies) {
+    for (Image& image : reference_.image) image[0] += copies * image[1];
+    for (Image& image : images_) image[0] += copies * image[1];
+    parallel_for(reference_.image.size(), [&](std::size_t i) {
+        for (std::size_t first = begin_[i], last = first; first < begin_[i + 1]; first = last) {
+            while (last < begin_[i + 1] && j_[last] == j_[first]) ++last;
+            if (last == first + 1) continue;
+            std::vector<std::pair<std::uint16_t, std::uint16_t>> same_rods;
+            for (std::size_t pair = first; pair < last; ++pair) same_rods.emplace_back(image_[pair], gap_[pair]);
+            std::sort(same_rods.begin(), same_rods.end(),
+                      [&](const auto& a, const auto& b) { return images_[a.first] < images_[b.first]; });
+            for (std::size_t pair = first; pair < last; ++pair)
+                std::tie(image_[pair], gap_[pair]) = same_rods[pair - first];
+        }
+    });
 }
 
 bool NeighbourList::refresh(const Rods& rods, const Box& box, std::span<const double> ranges) {

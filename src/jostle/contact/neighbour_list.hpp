@@ -69,9 +69,9 @@ public:
     /// To be told where the box is stretched, and all centres with it: gaps of the pairs that count change little.
     void stretch(const Vec3& by);
 
-    /// To be told where the box is sheared, and all centres with it: x by `strain` y. Images have to keep their
-    /// numbers.
-    void shear(double strain);
+    /// To be told where the box is sheared, and all centres with it: x by `strain` y. `copies`: by so many the copies
+    /// above have other numbers along x than before, where another copy is now the nearest.
+    void shear(double strain, std::int32_t copies);
 
     /// Forces building at the next update (rods were added, removed or renumbered).
     void invalidate() { reference_.centre.clear(); }
@@ -124,6 +124,7 @@ private:
     double find_extents(const Rods& rods, const Box& box, std::span<const double> ranges);
     std::int32_t in_units(double extent) const;
     void build(const Rods& rods, const Box& box, double list_range, std::size_t own);
+    void renumber_copies(std::int32_t copies);
 
     struct InBlock {  ///< the close pairs of a block
         std::size_t count = 0;
@@ -148,7 +149,7 @@ private:
     std::vector<std::uint32_t> j_;
     std::vector<std::uint16_t> gap_;    ///< when the list was built, in units, rounded down; 0 if negative
     std::vector<std::uint16_t> image_;  ///< when the list was built: which of images_
-    std::vector<Image> images_;         ///< ascending
+    std::vector<Image> images_;
     std::vector<std::array<std::int16_t, 3>> crossed_;  ///< (N) box edges that a rod has crossed since
     std::vector<std::int32_t> extent_;                  ///< (N) d_i + range_i at the last update, in units, rounded up
     std::vector<std::int32_t> extent_within_;           ///< (N) before the list was widened, or none

@@ -43,9 +43,8 @@ Contact contact_of_step(const Wall& wall, std::uint32_t row, double arm, const S
 double WallSearch::find(const StepGeometry& step, Contacts& contacts) {
     walls_ = walls_of(step.box);
     if (walls_.empty()) return 0.0;
-    const std::size_t count = step.rods.size();
-    known_.assign(count, 0);
-    return append_found(count, blocks_, contacts, [&](std::size_t row, FoundContacts& found) {
+    known_.assign(step.own_rods(), 0);
+    return append_found(known_.size(), blocks_, contacts, [&](std::size_t row, FoundContacts& found) {
         search(static_cast<std::uint32_t>(row), step, found);
     });
 }
@@ -71,7 +70,7 @@ Contacts WallSearch::violated(const StepGeometry& step, const EndConfiguration& 
     Contacts all;
     if (walls_.empty()) return all;
     append_found(end.rows.size(), blocks_, all, [&](std::size_t k, FoundContacts& found) {
-        search_again(end.rows[k], end.displacement[k].farthest, step, end, found.contacts);
+        if (end.rows[k] < step.own) search_again(end.rows[k], end.displacement[k].farthest, step, end, found.contacts);
     });
     return all;
 }

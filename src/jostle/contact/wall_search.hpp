@@ -32,7 +32,7 @@ private:
     static unsigned bit_of(const Wall& wall, double arm) { return 2 * wall.number + (arm > 0.0 ? 1 : 0); }
 
     std::vector<Wall> walls_;
-    std::vector<std::uint16_t> known_;  ///< (N) a bit for each end and wall that are a contact
+    std::vector<std::uint16_t> known_;  ///< (own rods) a bit for each end and wall that are a contact
     std::vector<FoundContacts> blocks_;
 };
 

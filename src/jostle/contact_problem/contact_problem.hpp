@@ -52,6 +52,8 @@ public:
     const DelassusOperator& matrix() const { return matrix_; }
     const std::vector<double>& constant() const { return b_; }
     const std::vector<double>& start() const { return start_; }
+    /// Whether there are forces to begin from, on any rank.
+    bool begins_warm() const { return domain_.ranks().any(!start_.empty()); }
     double time_step() const { return time_step_; }
     /// (contacts) how fast each gap opens, A gamma + b, from gamma and the velocities that follow from it.
     void gap_velocities(const ContactSolution& solution, std::span<double> rates) const {

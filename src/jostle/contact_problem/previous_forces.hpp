@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -25,8 +24,4 @@ std::vector<double> starting_forces(const Contacts& contacts, std::span<const st
 constexpr bool is_crowd(std::size_t forces) {
     return forces >= 25000;
 }
-inline bool is_crowd(std::span<const double> start) {
-    return is_crowd(static_cast<std::size_t>(std::ranges::count_if(start, [](double force) { return force > 0.0; })));
-}
-
 }  // namespace jostle

@@ -7,7 +7,7 @@
 #include "jostle/contact_problem/block_gauss_seidel.hpp"
 #include "jostle/contact_problem/previous_forces.hpp"
 #include "jostle/contact_problem/sweep_momentum.hpp"
-#include "jostle/parallel/parallel_for.hpp"
+#include "jostle/parallel/sum_over_ranks.hpp"
 
 namespace jostle {
 
@@ -63,7 +63,7 @@ public:
           outcome_(outcome),
           max_failures_(max_failures),
           verify_first_(verify_first),
-          warm_(!problem.start().empty()),
+          warm_(problem.begins_warm()),
           may_have_momentum_(may_have_momentum),
           gauss_seidel_(problem, settings.tolerance, solution.gamma) {
         gauss_seidel_.refresh(solution_);
@@ -203,7 +203,7 @@ private:
 ProjectedSor::ProjectedSor(const ContactProblem& problem, const LcpSettings& settings)
     : ContactSolver(problem, settings) {
     const double overlap = deepest_overlap();
-    may_have_momentum_ = settings.tolerance > finest_with_momentum * overlap && is_crowd(problem.start());
+    may_have_momentum_ = settings.tolerance > finest_with_momentum * overlap && is_crowd(pushing_at_start());
     if (settings.residual == LcpResidual::length && std::isfinite(overlap) &&
         settings.tolerance > finest_in_float * overlap)
         in_float_ = std::make_unique<Sweeps<float>>(problem, settings, solution_, outcome_, patience_with_float,
@@ -211,6 +211,16 @@ ProjectedSor::ProjectedSor(const ContactProblem& problem, const LcpSettings& set
 }
 
 ProjectedSor::~ProjectedSor() = default;
+
+/// How many contacts push as the solver begins, on all ranks.
+std::size_t ProjectedSor::pushing_at_start() const {
+    const std::vector<double>& start = problem_.start();
+    const auto elsewhere = problem_.is_elsewhere();
+    return sum_over_ranks<std::size_t>(problem_.domain().ranks(), start.size(), [&](std::size_t l) {
+        const bool counts = elsewhere.empty() || elsewhere[l] == 0;
+        return counts && start[l] > 0.0 ? std::size_t{1} : 0;
+    });
+}
 
 /// By how much the deepest of the gaps would be below 0 without forces, on all ranks.
 double ProjectedSor::deepest_overlap() const {

@@ -39,6 +39,7 @@ private:
     class Sweeps;
 
     double deepest_overlap() const;
+    std::size_t pushing_at_start() const;
 
     std::unique_ptr<Sweeps<float>> in_float_;
     std::unique_ptr<Sweeps<double>> in_double_;

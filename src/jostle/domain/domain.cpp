@@ -3,18 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
+#include <unordered_map>
 #include <utility>
 
+#include "jostle/math/mixed_bits.hpp"
 #include "jostle/rods/space_filling_order.hpp"
 
 namespace jostle {
 
 namespace {
-
-/// Cuts are moved where a rank has more rods than this many times the mean.
-constexpr double uneven = 1.1;
-/// So many ids are in a slice of the rods that rank 0 gathers.
-constexpr std::uint64_t slice = std::uint64_t{1} << 20;
 
 /// All that a rod carries.
 struct CarriedRod {
@@ -75,20 +73,31 @@ Bounds bounds_of(const Rods& rods, std::size_t row) {
     return bounds;
 }
 
+/// Whether two come nearer than `range` along direction k, in some periodic image, if a is displaced by `shift`.
+bool are_near_along(int k, const Bounds& a, double shift, const Bounds& b, double range, const Box& box) {
+    const double edge = box.edges()[k], low = a.low[k] + shift;
+    // a displaced by m edges, low + m edge <= high_b + range: the farthest such one is the only one to ask.
+    double below = b.high[k] + range - low;
+    if (box.periodic()[static_cast<std::size_t>(k)])
+        below -= std::floor(below / edge) * edge;  // how far low is then below high_b + range
+    else if (below < 0.0)
+        return false;
+    return b.high[k] + range - below + (a.high[k] - a.low[k]) >= b.low[k] - range;
+}
+
 /// Whether two come nearer than `range` along every direction, in some periodic image.
 bool are_near(const Bounds& a, const Bounds& b, double range, const Box& box) {
-    for (int k = 0; k < 3; ++k) {
+    for (int k = 0; k < 3; ++k)
         if (!(b.low[k] <= b.high[k])) return false;
-        const double edge = box.edges()[k];
-        // a displaced by m edges, low_a + m edge <= high_b + range: the farthest such one is the only one to ask.
-        double below = b.high[k] + range - a.low[k];
-        if (box.periodic()[static_cast<std::size_t>(k)])
-            below -= std::floor(below / edge) * edge;  // how far low_a is then below high_b + range
-        else if (below < 0.0)
-            return false;
-        if (b.high[k] + range - below + (a.high[k] - a.low[k]) < b.low[k] - range) return false;
-    }
-    return true;
+    if (!are_near_along(2, a, 0.0, b, range, box)) return false;
+    if (box.offset() == 0.0)
+        return are_near_along(0, a, 0.0, b, range, box) && are_near_along(1, a, 0.0, b, range, box);
+    // Copies above are displaced along x: every one that is near along y has to be asked.
+    const double edge = box.edges().y;
+    const double last = std::floor((b.high.y + range - a.low.y) / edge);
+    for (double copy = std::ceil((b.low.y - range - a.high.y) / edge); copy <= last; ++copy)
+        if (are_near_along(0, a, copy * box.offset(), b, range, box)) return true;
+    return false;
 }
 
 }  // namespace
@@ -107,18 +116,15 @@ void Domain::share_out(Rods& rods) {
     owned_ = rods.size();
 }
 
-void Domain::gather(Rods& rods, const Box& box, double range, bool balance) {
+void Domain::migrate(Rods& rods, const Box& box, bool balance, double work) {
     if (!is_shared()) return;
-    std::vector<std::uint32_t> own(owned_);
-    for (std::uint32_t row = 0; row < own.size(); ++row) own[row] = row;
-    rods = reordered(rods, own);
+    rods = own_rods(rods);
     if (balance || !std::exchange(is_cut_, true))
-        partition_.balance(ranks_, box, rods.centre, std::vector<float>(rods.size(), 1.0F));
-    migrate(rods, box);
-    fetch_ghosts(rods, box, range);
+        partition_.balance(ranks_, box, rods.centre, std::vector(rods.size(), static_cast<float>(work)));
+    bring_home(rods, box);
 }
 
-void Domain::migrate(Rods& rods, const Box& box) {
+void Domain::bring_home(Rods& rods, const Box& box) {
     const Carries carries = carried_by_any(ranks_, rods);
     const auto here = static_cast<std::size_t>(ranks_.rank());
     std::vector<std::vector<CarriedRod>> to(static_cast<std::size_t>(ranks_.count()));
@@ -140,7 +146,9 @@ void Domain::migrate(Rods& rods, const Box& box) {
     owned_ = counts_.owned = rods.size();
 }
 
-void Domain::fetch_ghosts(Rods& rods, const Box& box, double range) {
+void Domain::fetch_ghosts(Rods& rods, const Box& box, double range, std::span<const Wanted> wanted) {
+    if (!is_shared()) return;
+    const std::set<Wanted> in_any_case(wanted.begin(), wanted.end());
     const Carries carries = carried_by_any(ranks_, rods);
     Bounds own;
     std::vector<Bounds> bounds(owned_);
@@ -149,10 +157,12 @@ void Domain::fetch_ghosts(Rods& rods, const Box& box, double range) {
     std::vector<std::vector<CarriedRod>> to(of_rank.size());
     std::vector<std::vector<std::uint32_t>> sent(of_rank.size());
     for (std::size_t q = 0; q < of_rank.size(); ++q) {
-        if (q == static_cast<std::size_t>(ranks_.rank()) || owned_ == 0 || !are_near(own, of_rank[q], range, box))
-            continue;
+        if (q == static_cast<std::size_t>(ranks_.rank()) || owned_ == 0) continue;
+        const bool any_near = are_near(own, of_rank[q], range, box);
+        if (!any_near && in_any_case.empty()) continue;
         for (std::uint32_t row = 0; row < owned_; ++row) {
-            if (!are_near(bounds[row], of_rank[q], range, box)) continue;
+            const bool is_near = any_near && are_near(bounds[row], of_rank[q], range, box);
+            if (!is_near && !in_any_case.contains({row, static_cast<int>(q)})) continue;
             sent[q].push_back(row);
             to[q].push_back(carried(rods, row));
         }
@@ -204,6 +214,18 @@ void Domain::keep(Rods& rods, std::span<const std::uint32_t> rows) {
     note_ghosts(from, sent);
 }
 
+Rods Domain::own_rods(const Rods& rods) const {
+    std::vector<std::uint32_t> own(owned_of(rods.size()));
+    std::iota(own.begin(), own.end(), 0U);
+    return reordered(rods, own);
+}
+
+void Domain::replace(Rods& rods, Rods own) {
+    rods = std::move(own);
+    owned_ = rods.size();
+    note_ghosts({}, {});
+}
+
 Rods Domain::all_rods(const Rods& rods) const {
     if (!is_shared()) return rods;
     const Carries carries = carried_by_any(ranks_, rods);
@@ -216,7 +238,7 @@ Rods Domain::all_rods(const Rods& rods) const {
     return all;
 }
 
-Rods Domain::at_first_rank(const Rods& rods) const {
+Rods Domain::at_first_rank(const Rods& rods, std::size_t slice) const {
     if (!is_shared()) return in_order_of_ids(rods);
     const Carries carries = carried_by_any(ranks_, rods);
     std::vector<std::uint32_t> own(owned_);
@@ -224,24 +246,46 @@ Rods Domain::at_first_rank(const Rods& rods) const {
     std::sort(own.begin(), own.end(), [&](std::uint32_t a, std::uint32_t b) { return rods.id[a] < rods.id[b]; });
     Rods all;
     all.founder_bits = rods.founder_bits;
-    std::size_t sent = 0;
-    for (std::uint64_t end = slice;; end += slice) {
-        std::vector<std::vector<CarriedRod>> to(static_cast<std::size_t>(ranks_.count()));
-        for (; sent < own.size() && rods.id[own[sent]] < end; ++sent) to[0].push_back(carried(rods, own[sent]));
-        const bool are_more = ranks_.any(sent < own.size());
+    // Ids may lie far apart: a slice ends where a rank would send more than its part of it.
+    const auto count = static_cast<std::size_t>(ranks_.count());
+    const std::size_t part = std::max<std::size_t>(1, slice / count);
+    for (std::size_t sent = 0;;) {
+        const double beyond = sent + part < own.size() ? static_cast<double>(rods.id[own[sent + part]]) : INFINITY;
+        const double end = -ranks_.largest(-beyond);
+        std::vector<std::vector<CarriedRod>> to(count);
+        for (; sent < own.size() && static_cast<double>(rods.id[own[sent]]) < end; ++sent)
+            to[0].push_back(carried(rods, own[sent]));
         std::vector<CarriedRod> arrived;
         for (const auto& of_rank : ranks_.deal(to)) arrived.insert(arrived.end(), of_rank.begin(), of_rank.end());
         std::sort(arrived.begin(), arrived.end(), [](const CarriedRod& a, const CarriedRod& b) { return a.id < b.id; });
         for (const CarriedRod& rod : arrived) append(all, rod, carries);
-        if (!are_more) return all;
+        if (end == INFINITY) return all;
     }
 }
 
-bool Domain::is_uneven(const Rods& rods) const {
-    const auto own = static_cast<std::int64_t>(owned_of(rods.size()));
-    const double most = ranks_.largest(static_cast<double>(own));
-    const double mean = static_cast<double>(ranks_.sum(own)) / ranks_.count();
-    return most > uneven * mean;
+// Every rod is known to one rank that follows from its id, which the others ask.
+std::vector<int> Domain::ranks_of(const Rods& rods, std::span<const std::uint64_t> ids) const {
+    const auto count = static_cast<std::size_t>(ranks_.count());
+    const auto asked_of = [&](std::uint64_t id) { return mixed_bits(id) % count; };
+    std::vector<std::vector<std::uint64_t>> known(count), asked(count);
+    for (std::size_t row = 0; row < owned_of(rods.size()); ++row) known[asked_of(rods.id[row])].push_back(rods.id[row]);
+    for (const std::uint64_t id : ids) asked[asked_of(id)].push_back(id);
+    std::unordered_map<std::uint64_t, int> rank_of;
+    const auto told = ranks_.deal(known);
+    for (std::size_t rank = 0; rank < count; ++rank)
+        for (const std::uint64_t id : told[rank]) rank_of[id] = static_cast<int>(rank);
+    std::vector<std::vector<int>> answers(count);
+    const auto questions = ranks_.deal(asked);
+    for (std::size_t rank = 0; rank < count; ++rank)
+        for (const std::uint64_t id : questions[rank]) {
+            const auto found = rank_of.find(id);
+            answers[rank].push_back(found == rank_of.end() ? nobody : found->second);
+        }
+    const auto arrived = ranks_.deal(answers);
+    std::vector<std::size_t> next(count, 0);
+    std::vector<int> ranks;
+    for (const std::uint64_t id : ids) ranks.push_back(arrived[asked_of(id)][next[asked_of(id)]++]);
+    return ranks;
 }
 
 Exchange& Domain::exchange_of(std::size_t bytes) const {

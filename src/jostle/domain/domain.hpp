@@ -42,23 +42,45 @@ public:
     void share_out(Rods& rods);
 
     /// Brings every rod to the rank whose part it is in, with all that it carries, in an order that keeps neighbours
-    /// near in memory, and then ghosts: all rods whose surfaces may be nearer than `range` to one of this rank's.
-    /// `balance`: cuts are moved first. All ranks call it together, as they do the rest.
-    void gather(Rods& rods, const Box& box, double range, bool balance);
+    /// near in memory; ghosts are left. `balance`: cuts are moved first, so that all ranks have the same work to do,
+    /// where each of this rank's rods costs `work`. All ranks call it together, as they do the rest.
+    void migrate(Rods& rods, const Box& box, bool balance, double work = 1.0);
+
+    /// An own rod that another rank has to know, wherever it is.
+    struct Wanted {
+        std::uint32_t row;
+        int rank;
+        auto operator<=>(const Wanted&) const = default;
+    };
+
+    /// Then brings ghosts: all rods whose surfaces may be nearer than `range` to one of this rank's, and those wanted.
+    void fetch_ghosts(Rods& rods, const Box& box, double range, std::span<const Wanted> wanted = {});
+
+    /// Both.
+    void gather(Rods& rods, const Box& box, double range, bool balance) {
+        migrate(rods, box, balance);
+        fetch_ghosts(rods, box, range);
+    }
 
     /// The rods and ghosts in these rows are left, in the order of `rows`, which begins with all own ones: the others
     /// have no neighbour here.
     void keep(Rods& rods, std::span<const std::uint32_t> rows);
+
+    Rods own_rods(const Rods& rods) const;
+    /// These are the own rods from now on, and ghosts are left: cells have divided or died.
+    void replace(Rods& rods, Rods own);
 
     /// The rods of all ranks, in any order.
     Rods all_rods(const Rods& rods) const;
 
     /// The rods of all ranks in the order of ids, for rank 0; none for the others. They come in slices, so that rank 0
     /// needs no more memory than for the rods and one slice.
-    Rods at_first_rank(const Rods& rods) const;
+    Rods at_first_rank(const Rods& rods, std::size_t slice = std::size_t{1} << 20) const;
 
-    /// Whether own rods are so unevenly shared out that cuts should be moved.
-    bool is_uneven(const Rods& rods) const;
+    static constexpr int nobody = -1;
+    /// The rank that has each of these rods as its own now, or `nobody`. All ranks call it together, each with ids of
+    /// its own choice.
+    std::vector<int> ranks_of(const Rods& rods, std::span<const std::uint64_t> ids) const;
 
     /// Values of ghosts from their owners: value_of(row) is the place of a row's value, of plain numbers.
     template <class T, class ValueOf>
@@ -105,8 +127,7 @@ private:
     };
 
     Exchange& exchange_of(std::size_t bytes) const;
-    void migrate(Rods& rods, const Box& box);
-    void fetch_ghosts(Rods& rods, const Box& box, double range);
+    void bring_home(Rods& rods, const Box& box);
     void note_ghosts(std::span<const std::uint32_t> from, const std::vector<std::vector<std::uint32_t>>& sent);
 
     Ranks ranks_;

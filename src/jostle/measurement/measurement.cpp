@@ -42,7 +42,7 @@ Due Measurement::add(const StepReport& report, const Simulation& simulation) {
     if (simulation.rods_in_all() == 0) return {};
     const auto due = [step = simulation.clock().step](std::uint64_t every) { return every > 0 && step % every == 0; };
     const std::optional<double>& limit = scene_.pressure.limit_volume_fraction;
-    if (limit && total_volume(simulation.rods()) >= *limit * simulation.box().volume()) is_complete_ = true;
+    if (limit && volume_of_rods(simulation) >= *limit * simulation.box().volume()) is_complete_ = true;
     const Scene::Output& output = scene_.output;
     const Due now = {due(output.series_every), due(output.field_every), frame_steps_.is_due(simulation.clock().step),
                      due(output.checkpoint_every)};

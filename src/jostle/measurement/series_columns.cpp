@@ -20,6 +20,13 @@ using Series = TableColumns<RowState>;
 
 constexpr const char* in_compression = "positive in compression";
 
+/// Over the rods of all ranks.
+template <class T, class OfRod>
+T sum_over_rods(const Simulation& simulation, OfRod&& of_rod) {
+    const Domain& domain = simulation.domain();
+    return sum_over_ranks<T>(domain.ranks(), domain.owned_of(simulation.rods().size()), of_rod);
+}
+
 /// "Tr Sigma/3"; in two dimensions "Tr Sigma/2".
 std::string mean_of_normal(const Scene& scene, const char* stress) {
     return std::string("Tr ") + stress + (dimensions_of(scene) == 2 ? "/2" : "/3");
@@ -148,8 +155,8 @@ void add_force_columns(const Scene& scene, Series& series) {
                             const std::vector<Vec3>& centre = row.simulation.rods().centre;
                             const double middle = 0.5 * row.simulation.box().edges()[direction];
                             return force[direction] / row.volume *
-                                   parallel_sum<double>(centre.size(),
-                                                        [&](std::size_t i) { return centre[i][direction] - middle; });
+                                   sum_over_rods<double>(row.simulation,
+                                                         [&](std::size_t i) { return centre[i][direction] - middle; });
                         });
 }
 
@@ -229,13 +236,6 @@ void add_convention_columns(const Scene& scene, Series& series) {
         [mean](const RowState& row, std::size_t k) { return mean(row.sums.centre_line_virial, row, k); });
 }
 
-/// Over the rods of all ranks.
-template <class T, class OfRod>
-T sum_over_rods(const Simulation& simulation, OfRod&& of_rod) {
-    const Domain& domain = simulation.domain();
-    return sum_over_ranks<T>(domain.ranks(), domain.owned_of(simulation.rods().size()), of_rod);
-}
-
 Mat3 orientation_virial(const Simulation& of) {
     const Rods& rods = of.rods();
     return sum_over_rods<Mat3>(of, [&, kT = of.settings().kT, dimensions = of.box().dimensions()](std::size_t i) {
@@ -249,14 +249,14 @@ NematicOrder order_of(const Simulation& of) {
     return nematic_order(sum, of.rods_in_all(), of.box().dimensions());
 }
 
+}  // namespace
+
 double volume_of_rods(const Simulation& of) {
     const Rods& rods = of.rods();
     return sum_over_rods<double>(of, [&, dimensions = of.box().dimensions()](std::size_t i) {
         return rod_volume(rods.length[i], rods.diameter[i], dimensions);
     });
 }
-
-}  // namespace
 
 RowState::RowState(const Simulation& of, const StepSums& since_last_row)
     : simulation(of),
@@ -273,7 +273,7 @@ RowState::RowState(const Simulation& of, const StepSums& since_last_row)
       order(order_of(of)) {
     if (const auto& flow = of.settings().flow)
         flow_virial = sum_of_flow_stresses(of.rods(), *of.mobility().at(of.rods(), of.box()), *flow, of.clock(),
-                                           of.settings().time_step);
+                                           of.settings().time_step, of.domain());
 }
 
 TableColumns<RowState> series_columns(const Scene& scene) {

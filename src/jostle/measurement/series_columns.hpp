@@ -29,6 +29,9 @@ struct RowState {
     Mat3 flow_virial;    ///< what a flow turns the axes by, at this step (`sum_of_flow_stresses`)
 };
 
+/// Of all ranks; in two dimensions the area. All call it together.
+double volume_of_rods(const Simulation& simulation);
+
 /// The columns of series.csv, in their order: name, unit, symbol, definition, sign and value of each.
 TableColumns<RowState> series_columns(const Scene& scene);
 

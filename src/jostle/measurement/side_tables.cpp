@@ -3,7 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "jostle/scene/scene_walls.hpp"
@@ -24,20 +26,24 @@ double time_of(const Item& item) {
     return item.clock.time;
 }
 
-constexpr std::size_t column_of_id_i = 1, column_of_id_j = 2;
+/// By which a contact stands among others: the ids of its bodies.
+using BodyIds = std::array<std::uint64_t, 2>;
 
-/// Contacts of the same two rods are of one rank, and stay in the order that they have there.
-TableRows at_first_rank(TableRows rows, std::size_t columns, const Ranks& ranks) {
+/// Contacts of the same two bodies are of one rank, and stay in the order that they have there.
+TableRows at_first_rank(TableRows rows, std::vector<BodyIds> ids, std::size_t columns, const Ranks& ranks) {
     if (ranks.alone()) return rows;
     std::vector<double> numbers;
     for (const std::vector<double>& row : rows) numbers.insert(numbers.end(), row.begin(), row.end());
     numbers = ranks.gather_at_first(numbers);
+    ids = ranks.gather_at_first(ids);
+    std::vector<std::size_t> order(ids.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
     TableRows all;
-    for (auto row = numbers.begin(); row != numbers.end(); row += static_cast<std::ptrdiff_t>(columns))
+    for (const std::size_t k : order) {
+        const auto row = numbers.begin() + static_cast<std::ptrdiff_t>(k * columns);
         all.emplace_back(row, row + static_cast<std::ptrdiff_t>(columns));
-    const auto ids = [](const std::vector<double>& row) { return std::pair(row[column_of_id_i], row[column_of_id_j]); };
-    std::stable_sort(all.begin(), all.end(),
-                     [&](const std::vector<double>& a, const std::vector<double>& b) { return ids(a) < ids(b); });
+    }
     return all;
 }
 
@@ -90,13 +96,16 @@ TableColumns<ContactState> contact_columns(const Scene& scene) {
 
 TableRows contact_rows(const TableColumns<ContactState>& columns, const Simulation& simulation) {
     TableRows rows;
+    std::vector<BodyIds> bodies;
+    const auto& ids = simulation.contact_ids();
     const auto& gamma = simulation.contact_solution().gamma;
-    for (const std::size_t l : order_of_ids(simulation.contacts(), simulation.contact_ids(), gamma)) {
+    for (const std::size_t l : order_of_ids(simulation.contacts(), ids, gamma)) {
         const Contact& contact = simulation.contacts().contact[l];
-        if (!simulation.domain().owns(is_fixed(contact.i) ? contact.j : contact.i)) continue;  // another rank's
+        if (!simulation.counts(l)) continue;
+        bodies.push_back({id_of_body(contact.i, ids), ids[contact.j]});
         rows.push_back(columns.row({simulation.clock(), contact_by_id(simulation, l), gamma[l], contact.gap}));
     }
-    return at_first_rank(std::move(rows), columns.columns.size(), simulation.domain().ranks());
+    return at_first_rank(std::move(rows), std::move(bodies), columns.columns.size(), simulation.domain().ranks());
 }
 
 TableColumns<LineageState> lineage_columns(const Scene& scene) {

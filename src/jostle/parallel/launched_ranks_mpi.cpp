@@ -56,8 +56,10 @@ public:
         for (MPI_Request& request : requests_) MPI_Request_free(&request);
     }
 
-    void begin() override { MPI_Startall(static_cast<int>(requests_.size()), requests_.data()); }
-    void end() override { wait_for_all(requests_); }
+    void begin() override {
+        if (!requests_.empty()) MPI_Startall(static_cast<int>(requests_.size()), requests_.data());  // none is an error
+    }
+    void wait() override { wait_for_all(requests_); }
 
 private:
     std::vector<MPI_Request> requests_;

@@ -17,6 +17,7 @@ void Ranks::largest(std::span<double> values) const {
     if (!link_) return;
     for (double& value : values)
         if (std::isnan(value)) value = std::numeric_limits<double>::infinity();
+    const Waiting waiting(link_->seconds_waited);
     link_->largest(values);
 }
 

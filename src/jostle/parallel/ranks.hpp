@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -11,6 +12,20 @@
 #include <vector>
 
 namespace jostle {
+
+/// Adds the time of its life to what a rank has waited for others (s).
+class Waiting {
+public:
+    explicit Waiting(double& seconds) : seconds_(seconds), began_(Clock::now()) {}
+    ~Waiting() { seconds_ += std::chrono::duration<double>(Clock::now() - began_).count(); }
+    Waiting(const Waiting&) = delete;
+    Waiting& operator=(const Waiting&) = delete;
+
+private:
+    using Clock = std::chrono::steady_clock;
+    double& seconds_;
+    Clock::time_point began_;
+};
 
 /// The same messages between the same ranks, again and again.
 class Exchange {
@@ -32,11 +47,22 @@ public:
     /// Sends what is in `out`; what lies between `begin` and `end` is done while messages travel.
     virtual void begin() = 0;
     /// Waits until all is in `in`.
-    virtual void end() = 0;
+    void end() {
+        const Waiting waiting(*waited_);
+        wait();
+    }
+    /// Where the time that `end` takes is added up.
+    void add_waiting_to(double& seconds) { waited_ = &seconds; }
 
 protected:
+    virtual void wait() = 0;
+
     std::vector<Peer> peers_;
     std::vector<std::vector<std::byte>> out_, in_;
+
+private:
+    double own_waiting_ = 0.0;
+    double* waited_ = &own_waiting_;
 };
 
 /// How one rank reaches the others. All ranks make the same calls in the same order.
@@ -52,6 +78,8 @@ public:
     virtual std::vector<Bytes> deal(const std::vector<Bytes>& to) = 0;
     virtual Bytes of_first(Bytes message) = 0;
     virtual std::unique_ptr<Exchange> exchange(std::vector<Exchange::Peer> peers) = 0;
+
+    double seconds_waited = 0.0;  ///< for other ranks, in all calls but `exchange`
 };
 
 /// Those that make a run together, each with a part of the rods: all of them, or one alone, for whom nothing is sent.
@@ -64,6 +92,8 @@ public:
     bool alone() const { return link_ == nullptr; }
     int rank() const { return link_ ? link_->rank() : 0; }
     int count() const { return link_ ? link_->count() : 1; }
+    /// How long this rank has waited for others so far, messages included (s).
+    double seconds_waited() const { return link_ ? link_->seconds_waited : 0.0; }
 
     /// The largest of all ranks; nan counts as infinite.
     double largest(double value) const {
@@ -75,11 +105,13 @@ public:
     bool any(bool here) const { return link_ ? largest(here ? 1.0 : 0.0) > 0.0 : here; }
     /// The sum over all ranks.
     std::int64_t sum(std::int64_t number) const {
-        if (link_) link_->add_up({&number, 1});
+        add_up({&number, 1});
         return number;
     }
     void add_up(std::span<std::int64_t> numbers) const {
-        if (link_) link_->add_up(numbers);
+        if (!link_) return;
+        const Waiting waiting(link_->seconds_waited);
+        link_->add_up(numbers);
     }
 
     /// to[q] goes to rank q; returns what has come, from[p] from rank p. T is made of plain numbers.
@@ -92,7 +124,7 @@ public:
             bytes[q].resize(to[q].size() * sizeof(T));
             if (!bytes[q].empty()) std::memcpy(bytes[q].data(), to[q].data(), bytes[q].size());
         }
-        const auto arrived = link_->deal(bytes);
+        const auto arrived = dealt(bytes);
         std::vector<std::vector<T>> from(arrived.size());
         for (std::size_t p = 0; p < arrived.size(); ++p) {
             from[p].resize(arrived[p].size() / sizeof(T));
@@ -129,10 +161,17 @@ public:
 
     /// Not for one alone.
     std::unique_ptr<Exchange> exchange(std::vector<Exchange::Peer> peers) const {
-        return link_->exchange(std::move(peers));
+        auto exchange = link_->exchange(std::move(peers));
+        exchange->add_waiting_to(link_->seconds_waited);
+        return exchange;
     }
 
 private:
+    std::vector<RankLink::Bytes> dealt(const std::vector<RankLink::Bytes>& to) const {
+        const Waiting waiting(link_->seconds_waited);
+        return link_->deal(to);
+    }
+
     RankLink* link_ = nullptr;
 };
 

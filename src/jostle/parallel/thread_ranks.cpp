@@ -121,7 +121,7 @@ public:
         for (std::size_t k = 0; k < peers_.size(); ++k)
             if (peers_[k].bytes_out > 0) meeting_point_.send(rank_, peers_[k].rank, out_[k]);
     }
-    void end() override {
+    void wait() override {
         for (std::size_t k = 0; k < peers_.size(); ++k) {
             if (peers_[k].bytes_in == 0) continue;
             const Bytes message = meeting_point_.receive(peers_[k].rank, rank_);

@@ -26,7 +26,8 @@ Wall piston_of(const Box& box, int direction) {
 }
 
 /// Theory, eq. (10.1), and (10.3) of a plane.
-Vec3 moved_by_forces(const State& state, const PressureControl& control, double kT, const StepContext& context) {
+Vec3 moved_by_forces(const State& state, std::size_t rods, const PressureControl& control, double kT,
+                     const StepContext& context) {
     Vec3 edges = state.box.edges();
     if (!state.box_force) return edges;
     const Vec3& force = *state.box_force;
@@ -41,7 +42,7 @@ Vec3 moved_by_forces(const State& state, const PressureControl& control, double 
     const bool each = control.moves == Moves::edges;
     const double mean = (force.x + force.y + force.z) / 3.0;
     const Vec3 virial = each ? force : Vec3{mean, mean, mean};
-    const double free = (static_cast<double>(state.rods.size()) + 1.0) * kT - control.external * state.box.volume();
+    const double free = (static_cast<double>(rods) + 1.0) * kT - control.external * state.box.volume();
     for (int k = 0; k < 3; ++k) {
         const auto own = static_cast<std::size_t>(each ? k : 0);
         const double strain = control.mobility * (free + virial[k]) * context.time_step + noise * normal[own];
@@ -52,8 +53,9 @@ Vec3 moved_by_forces(const State& state, const PressureControl& control, double 
 
 }  // namespace
 
-Vec3 edges_under_pressure(const State& state, const PressureControl& control, double kT, const StepContext& context) {
-    return kT > 0.0 ? moved_by_forces(state, control, kT, context)
+Vec3 edges_under_pressure(const State& state, std::size_t rods, const PressureControl& control, double kT,
+                          const StepContext& context) {
+    return kT > 0.0 ? moved_by_forces(state, rods, control, kT, context)
                     : opened(state.box.edges(), control, -control.rate, context.time_step);
 }
 

@@ -27,8 +27,9 @@ struct PressureControl {
 /// The edges at the end of the step that the state stands before: their logarithms, or the plane, move as one more
 /// body, by the forces of the last step and by noise of `kT` (theory, eqs. 10.1 and 10.3). Those that it has where
 /// these forces are not known. Without thermal motion those that they would have if no contact resisted: `opening_of`
-/// says how contact forces then open the box in the same step.
-Vec3 edges_under_pressure(const State& state, const PressureControl& control, double kT, const StepContext& context);
+/// says how contact forces then open the box in the same step. `rods`: so many, of all ranks.
+Vec3 edges_under_pressure(const State& state, std::size_t rods, const PressureControl& control, double kT,
+                          const StepContext& context);
 
 /// Forces on the logarithms of the edges, or on the plane, by a step that was made: what the next one needs.
 Vec3 force_on_box(const StepReport& report, const PressureControl& control);

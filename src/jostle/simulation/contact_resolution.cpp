@@ -29,7 +29,10 @@ ContactProblem ContactResolution::posed(const MobilityOperator& mobility, Contac
                                         const BoxColumn& opening) const {
     std::vector<double> b, start;
     if (!settings_.rods_are_soft()) b = gap_velocities(found);
-    if (settings_.warm_start) start = starting_forces(found, state_.rods.id, state_.previous_forces);
+    if (settings_.warm_start) {
+        start = starting_forces(found, state_.rods.id, state_.previous_forces);
+        if (domain_.ranks().any(!start.empty())) start.resize(found.size(), 0.0);  // as another rank begins
+    }
     const double compliance = settings_.corrects_brownian_motion() ? contact_compliance : 0.0;
     return ContactProblem(state_.rods, mobility, std::move(found), std::move(b), settings_.time_step, compliance,
                           std::move(start), domain_, opening);

@@ -27,14 +27,15 @@ void keep_in_plane(const Box& box, std::vector<Vec3>& linear, std::vector<Vec3>&
 
 /// M is applied once to the sum of the forces of motions and springs; stresses need the velocities that they give
 /// (theory 2.7, 2.9).
-void add_velocities_of_forces(const State& state, std::span<const std::unique_ptr<Motion>> motions,
-                              const MobilityOperator& mobility, const StepContext& context, KnownMotion& known) {
+void add_velocities_of_forces(const State& state, bool has_springs, const Domain& domain,
+                              std::span<const std::unique_ptr<Motion>> motions, const MobilityOperator& mobility,
+                              const StepContext& context, KnownMotion& known) {
     known.exerted = sum_of_forces(motions, state.rods, context).value_or(Forces{0});
     keep_in_plane(state.box, known.exerted.force, known.exerted.torque);
     known.by_forces.resize(0);
-    if (known.exerted.size() == 0 && state.springs.empty()) return;
+    if (known.exerted.size() == 0 && !has_springs) return;
     Forces sum = known.exerted;
-    if (!state.springs.empty()) {
+    if (has_springs) {
         known.pulls = spring_pulls(state.springs, state.rods, state.box);
         Forces of_springs = spring_forces(state.springs, known.pulls, state.rods);
         if (sum.size() == 0)
@@ -44,21 +45,25 @@ void add_velocities_of_forces(const State& state, std::span<const std::unique_pt
                 sum.force[i] += of_springs.force[i];
                 sum.torque[i] += of_springs.torque[i];
             });
+        // Springs of ghosts are not all known here.
+        domain.refresh<Vec3>([&](std::uint32_t row) -> Vec3& { return sum.force[row]; });
+        domain.refresh<Vec3>([&](std::uint32_t row) -> Vec3& { return sum.torque[row]; });
     }
     mobility.apply(sum, known.by_forces);
     add(known.by_forces, known.velocity);
 }
 
 /// Whether anything but noise moves rods.
-bool any_drift(const State& state, std::span<const std::unique_ptr<Motion>> motions, const MobilityOperator& mobility) {
-    return mobility.couples_rods() || !state.springs.empty() ||
+bool any_drift(bool has_springs, std::span<const std::unique_ptr<Motion>> motions, const MobilityOperator& mobility) {
+    return mobility.couples_rods() || has_springs ||
            std::ranges::any_of(motions, [](const auto& motion) { return !motion->is_noise(); });
 }
 
 }  // namespace
 
-void find_known_motion(const State& state, std::span<const std::unique_ptr<Motion>> motions,
-                       const MobilityOperator& mobility, const StepContext& context, KnownMotion& known) {
+void find_known_motion(const State& state, bool has_springs, const Domain& domain,
+                       std::span<const std::unique_ptr<Motion>> motions, const MobilityOperator& mobility,
+                       const StepContext& context, KnownMotion& known) {
     const Rods& rods = state.rods;
     known.velocity.resize(rods.size());
     std::vector<Vec3>&linear = known.velocity.linear, &angular = known.velocity.angular;
@@ -70,9 +75,9 @@ void find_known_motion(const State& state, std::span<const std::unique_ptr<Motio
     add_velocities_of(false);
     if (const AxialStresslets stresslets = sum_of_stresslets(motions, rods, context); stresslets.any())
         mobility.add_axial_flow(stresslets, known.velocity);
-    add_velocities_of_forces(state, motions, mobility, context, known);
+    add_velocities_of_forces(state, has_springs, domain, motions, mobility, context, known);
     keep_in_plane(state.box, linear, angular);
-    known.drift = any_drift(state, motions, mobility) ? known.velocity : Velocities{0};
+    known.drift = any_drift(has_springs, motions, mobility) ? known.velocity : Velocities{0};
     add_velocities_of(true);
     keep_in_plane(state.box, linear, angular);
 

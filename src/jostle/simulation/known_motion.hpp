@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "jostle/domain/domain.hpp"
 #include "jostle/motion/motion.hpp"
 #include "jostle/rods/configuration.hpp"
 #include "jostle/state/state.hpp"
@@ -21,8 +22,9 @@ struct KnownMotion {
     Velocities by_forces;              ///< (N) part of U_known by `exerted` and springs; (0) without both
 };
 
-/// Makes `known` that of this state.
-void find_known_motion(const State& state, std::span<const std::unique_ptr<Motion>> motions,
-                       const MobilityOperator& mobility, const StepContext& context, KnownMotion& known);
+/// Makes `known` that of this state. `has_springs`: any rods, be they other ranks'.
+void find_known_motion(const State& state, bool has_springs, const Domain& domain,
+                       std::span<const std::unique_ptr<Motion>> motions, const MobilityOperator& mobility,
+                       const StepContext& context, KnownMotion& known);
 
 }  // namespace jostle

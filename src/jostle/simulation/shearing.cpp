@@ -18,7 +18,7 @@ ShearRotation rotation_of(const Rods& rods, std::size_t i, double strain) {
 
 Shearing::Shearing(State& state, const std::optional<ShearFlow>& flow, double time_step, CollisionSearch& search)
     : state_(state), search_(search) {
-    if (!flow || state.rods.size() == 0) return;
+    if (!flow) return;
     const double strain = flow->strain_of_step(state.clock, time_step);
     if (strain == 0.0) return;
     is_made_ = true;
@@ -37,7 +37,8 @@ Shearing::Shearing(State& state, const std::optional<ShearFlow>& flow, double ti
 /// `copies`: by so many the copies above have other numbers along x than before, for it was the next that came nearer.
 void Shearing::shear(double strain, int copies) {
     Rods& rods = state_.rods;
-    const ShearRotation rotation = rotation_of(rods, 0, strain);  // of most rods, or of all
+    const bool any = rods.size() > 0;
+    const ShearRotation rotation = any ? rotation_of(rods, 0, strain) : ShearRotation(strain, 0.0);  // of most, or all
     parallel_for(rods.size(), [&](std::size_t i) {
         rods.centre[i].x += strain * rods.centre[i].y;
         rods.image[i][0] += copies * rods.image[i][1];
@@ -46,10 +47,7 @@ void Shearing::shear(double strain, int copies) {
         rods.axis[i] = (alike ? rotation : rotation_of(rods, i, strain)).of(rods.axis[i]);
     });
     for (Spring& spring : state_.springs) spring.image[0] += copies * spring.image[1];
-    if (copies == 0)
-        search_.shear(strain);
-    else
-        search_.invalidate();
+    search_.shear(strain, copies);
 }
 
 Shearing::~Shearing() {

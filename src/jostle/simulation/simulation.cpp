@@ -40,6 +40,8 @@ Simulation::Simulation(State state, std::unique_ptr<Mobility> mobility, std::vec
         throw InputError({.key = "time.step",
                           .value = std::to_string(settings_.time_step),
                           .problem = "the time step must be positive"});
+    previous_forces_in_all_ = counted_forces_ = state_.previous_forces.size();
+    settings_.has_springs = !state_.springs.empty();
     require_sound_springs(state_.springs);
     require_sheared(state_, settings_.flow);
     if (!settings_.growth) return;
@@ -81,7 +83,8 @@ std::optional<Vec3> Simulation::follow_schedule() {
 /// The edges of the box at the end of the step, if it changes.
 std::optional<Vec3> Simulation::edges_of_step() {
     std::optional<Vec3> edges = follow_schedule();
-    if (settings_.pressure) edges = edges_under_pressure(state_, *settings_.pressure, settings_.kT, context());
+    if (settings_.pressure)
+        edges = edges_under_pressure(state_, rods_in_all(), *settings_.pressure, settings_.kT, context());
     return edges;
 }
 

@@ -15,6 +15,7 @@
 #include "jostle/simulation/simulation_settings.hpp"
 #include "jostle/simulation/size_bounds.hpp"
 #include "jostle/simulation/step_report.hpp"
+#include "jostle/simulation/work.hpp"
 #include "jostle/state/state.hpp"
 #include "jostle/stress/collision_moments.hpp"
 
@@ -54,7 +55,7 @@ public:
     void unite();
     /// The rods of all ranks, in the order of ids: for tests and small systems.
     Rods rods_of_all_ranks() const;
-    /// At the beginning of the next step rods may change their rank, for cuts that give all ranks the same number.
+    /// At the beginning of the next step rods may change their rank, for cuts that give all ranks the same work.
     void rebalance() { balance_ = gathering_ = true; }
 
     /// Makes one step (step.cpp). Where contacts cannot be resolved the report says so, and the state stays as it was.
@@ -69,7 +70,7 @@ public:
     const Clock& clock() const { return state_.clock; }
     /// Whether the rods come to equilibrium, but for springs: they are thermal, none grows, no motion drives them.
     bool keeps_equilibrium() const;
-    /// Who was born and who died after the last step.
+    /// Who was born and who died after the last step, of all ranks.
     std::span<const LineageEvent> lineage() const { return lineage_; }
     /// The model of the fluid: `at(rods(), box())` is M of the rods as they stand.
     const Mobility& mobility() const { return *mobility_; }
@@ -78,15 +79,30 @@ public:
     /// Of the last step, with the gaps before it.
     const Contacts& contacts() const { return contacts_; }
     const ContactSolution& contact_solution() const { return solution_; }
+    /// Whether this rank counts the contact: of two ranks that have it one does.
+    bool counts(std::size_t contact) const { return elsewhere_.empty() || elsewhere_[contact] == 0; }
     /// The parts of its collision stress, if the settings ask for them.
     const CollisionMoments& collision_moments() const { return moments_; }
     /// Ids of the rows that these refer to: those of `rods()`, but where cells have died, or rows changed, since.
     const std::vector<std::uint64_t>& contact_ids() const { return ids_before_.empty() ? state_.rods.id : ids_before_; }
 
 private:
+    /// A spring, and its number among those of all ranks: by these forces of springs are added up.
+    struct NumberedSpring {
+        std::uint64_t number;
+        Spring spring;
+    };
+
     std::optional<StepReport> attempt();
     bool neighbours_are_known(const StepGeometry& geometry);
-    void gather(double skin);
+    void gather(double skins);
+    void gather_forces();
+    std::vector<NumberedSpring> counted_springs() const;
+    void take_springs(std::vector<NumberedSpring> springs);
+    void gather_springs(std::span<const NumberedSpring> counted);
+    std::vector<std::uint32_t> with_held_rods(std::vector<std::uint32_t> rows) const;
+    std::vector<Domain::Wanted> rods_held_elsewhere() const;
+    void remember_forces(const Contacts& contacts, std::span<const double> gamma);
     std::optional<Vec3> follow_schedule();
     std::optional<Vec3> edges_of_step();
     void renumber();
@@ -99,6 +115,7 @@ private:
     bool opens_box() const { return settings_.pressure && settings_.kT == 0.0; }
     void turn_round(std::span<const std::uint32_t> rows);
     void divide();
+    std::vector<LineageEvent> divide_own();
     void begin_threads();
     StepContext context() const { return {settings_.seed, state_.clock.step, settings_.time_step}; }
 
@@ -111,10 +128,16 @@ private:
     Domain domain_;
     std::size_t shared_rods_ = 0;
     bool balance_ = false, gathering_ = false;  ///< when neighbours are listed next; in the next step
+    Work work_;
+    double skin_ = 0.0;               ///< of the step that found its neighbours not known
+    std::size_t counted_forces_ = 0;  ///< previous forces that this rank counts: the first ones
+    std::size_t previous_forces_in_all_ = 0;
+    std::vector<std::uint64_t> spring_numbers_;  ///< of the springs, ascending, where ranks share them
 
     // Results of the last step.
     std::vector<LineageEvent> lineage_;
     Contacts contacts_;
+    std::vector<std::uint8_t> elsewhere_;  ///< (contacts) whether another rank counts it; (0) of one process
     ContactSolution solution_;
     CollisionMoments moments_;
     std::vector<std::uint64_t> ids_before_;  ///< (N) of the rows in that step, if rows have changed since

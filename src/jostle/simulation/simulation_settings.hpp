@@ -28,6 +28,7 @@ struct SimulationSettings {
     bool collision_moments = false;   ///< the parts of the collision stress are kept, contact by contact
     std::optional<ShearFlow> flow;    ///< that the rods go with; steps shear a box that is periodic along x and y
     std::optional<GrowthLaw> growth;
+    bool has_springs = false;  ///< between any rods; as the simulation finds them in its state
     Schedule schedule = {};
     std::optional<PressureControl> pressure;  ///< without it the box stays, but for a schedule
 

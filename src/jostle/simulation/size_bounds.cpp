@@ -51,13 +51,13 @@ void find_size_bounds(const Rods& rods, const Domain& domain, const MobilityOper
 }
 
 SearchRanges search_ranges(const State& state, const KnownMotion& known, const SizeBounds& sizes,
-                           const SimulationSettings& settings, const Domain& domain) {
+                           const SimulationSettings& settings, const Domain& domain, std::size_t previous_forces) {
     const double mean_diameter = sizes.mean_diameter, mean_length = sizes.mean_length;
     SearchRanges ranges = {.displacement_limit = max_displacement_limit * mean_diameter,
                            .skin = skin_per_diameter * mean_diameter + skin_per_length * mean_length,
                            .activation_margin = activation_margin_per_diameter * mean_diameter,
                            .range = settings.rods_are_soft() ? (wca_range - 1.0) * sizes.max_diameter : settings.range};
-    const bool crowded = is_crowd(state.previous_forces.size());
+    const bool crowded = is_crowd(previous_forces);
     if (crowded) ranges.activation_margin = activation_margin_in_a_crowd * mean_diameter;
     if (settings.kT == 0.0 || crowded) return ranges;
     const double displacement = mean_of(known.displacement, domain, sizes.rods);
@@ -76,14 +76,15 @@ SearchRanges search_ranges(const State& state, const KnownMotion& known, const S
 }
 
 StepGeometry step_geometry(const State& state, const KnownMotion& known, const SizeBounds& sizes,
-                           const SimulationSettings& settings, const Domain& domain) {
+                           const SimulationSettings& settings, const Domain& domain, std::size_t previous_forces) {
     return {state.rods,
             state.box,
             known.end,
             known.displacement,
-            search_ranges(state, known, sizes, settings, domain),
+            search_ranges(state, known, sizes, settings, domain, previous_forces),
             settings.corrects_brownian_motion() ? normals_half_way : 0.0,
-            settings.rods_are_soft()};
+            settings.rods_are_soft(),
+            domain.owned_of(state.rods.size())};
 }
 
 }  // namespace jostle

@@ -5,7 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include "jostle/contact_problem/previous_forces.hpp"
 #include "jostle/motion/springs.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/simulation/contact_resolution.hpp"
@@ -43,11 +42,14 @@ std::size_t contacts_of_all_ranks(const ContactProblem& problem) {
 }  // namespace
 
 StepReport Simulation::step() {
-    for (;;)
+    const WorkTimer timer(domain_.ranks(), work_);
+    for (double skins = 1.0;; skins *= 2.0) {  // one does, but where a box changes much
         if (const auto report = attempt()) return *report;
+        gather(skins);
+    }
 }
 
-/// None if rods of other ranks were not known that have to be, as they are now: nothing has happened.
+/// None if rods have to be gathered first, for some of other ranks are not known that have to be: nothing has happened.
 std::optional<StepReport> Simulation::attempt() {
     StepReport report;
     report.step = state_.clock.step;
@@ -62,29 +64,25 @@ std::optional<StepReport> Simulation::attempt() {
     update_sizes(*mobility);
     report.rods = sizes_.rods;
 
-    find_known_motion(state_, motions_, *mobility, context(), known_);  // 1  U_known, and where it takes the rods
+    find_known_motion(state_, settings_.has_springs, domain_, motions_, *mobility, context(),
+                      known_);  // 1  U_known, and where it takes the rods
     timer.finish(StepPhase::known_velocity);
 
-    const StepGeometry geometry = step_geometry(state_, known_, sizes_, settings_, domain_);
-    if (!neighbours_are_known(geometry)) {
-        gather(geometry.ranges.skin);
-        return std::nullopt;
-    }
+    const StepGeometry geometry = step_geometry(state_, known_, sizes_, settings_, domain_, previous_forces_in_all_);
+    if (!neighbours_are_known(geometry)) return std::nullopt;
     Contacts found = find_contacts(geometry, report);  // 2  contacts
     timer.finish(StepPhase::find_contacts);
 
     ContactResolution resolution(state_, known_, geometry, sizes_, settings_, domain_, searches_);
     ContactProblem problem = resolution.posed(*mobility, std::move(found), opening);  // 3  A, b; gamma
     std::optional<ContactSolution> solution = resolution.solve(problem, report);
-    if (!solution) {
-        gather(geometry.ranges.skin);
-        return std::nullopt;
-    }
+    if (!solution) return std::nullopt;
     report.contacts = contacts_of_all_ranks(problem);
     std::optional<ContactSolution> touching;
     if (mobility->couples_rods() && settings_.corrects_brownian_motion())
         touching = forces_at_touching(problem, *solution, state_.rods, *mobility);
     solution_ = std::move(*solution);
+    elsewhere_.assign(problem.is_elsewhere().begin(), problem.is_elsewhere().end());
     contacts_ = std::move(problem).take_contacts();
     timer.finish(StepPhase::solve_contacts);
     if (report.status != LcpStatus::converged) return report;  // nothing has happened
@@ -127,7 +125,10 @@ Contacts Simulation::find_contacts(const StepGeometry& geometry, StepReport& rep
 void Simulation::advance(KnownMotion& known, const ContactSolution& solution, const Contacts& contacts,
                          StepReport& report) {
     Rods& rods = state_.rods;
-    if (growth_) growth_->slow_down(rods, solution.rods, solution.forces, settings_.time_step);
+    if (growth_) {
+        growth_->slow_down(rods, solution.rods, solution.forces, settings_.time_step);
+        domain_.refresh<double>([&](std::uint32_t row) -> double& { return rods.cycle[row].share; });
+    }
     std::vector<Vec3>&centre = known.end.centre, &axis = known.end.axis;
     const double dt = settings_.time_step;
     parallel_for(solution.rods.size(), [&](std::size_t k) {
@@ -143,7 +144,7 @@ void Simulation::advance(KnownMotion& known, const ContactSolution& solution, co
     ++state_.clock.step;
     state_.clock.time = static_cast<double>(state_.clock.step) * settings_.time_step;
     if (growth_) divide();
-    if (settings_.warm_start) state_.previous_forces = previous_forces(contacts, solution.gamma, contact_ids());
+    if (settings_.warm_start) remember_forces(contacts, solution.gamma);
 }
 
 // Theory 10: contact forces have opened the box at this rate, and the centres go with it.
@@ -170,7 +171,8 @@ void Simulation::divide() {
     lineage_.clear();
     if (!growth_->is_due(state_.clock.step)) return;
     std::vector<std::uint64_t> ids = state_.rods.id;
-    lineage_ = growth_->divide(state_.rods, state_.box, state_.clock.step, settings_.time_step);
+    lineage_ = domain_.is_shared() ? divide_own()
+                                   : growth_->divide(state_.rods, state_.box, state_.clock.step, settings_.time_step);
     if (lineage_.empty()) return;
     rows_change();
     ids_before_ = std::move(ids);

@@ -73,7 +73,7 @@ void measure_collision_stress(const ResolvedStep& step, std::span<const double> 
 
 /// Theory 1, eqs. (1.16) and (1.22): the forces of springs, and the torques of motions, as the step began, with moments
 /// half way through what forces do in it (eq. 1.17).
-void measure_stress_of_known_forces(const ResolvedStep& step, double time_step, StepReport& report) {
+void measure_stress_of_known_forces(const ResolvedStep& step, double time_step, bool has_springs, StepReport& report) {
     const Rods& rods = step.state.rods;
     Velocities by_forces = step.known.by_forces;
     parallel_for(step.solution.rods.size(), [&](std::size_t k) {
@@ -88,9 +88,10 @@ void measure_stress_of_known_forces(const ResolvedStep& step, double time_step, 
         half_way.centre[i] = centre_after(rods.centre[i], by_forces.linear[i], half_step);
         half_way.axis[i] = axis_after(rods.axis[i], by_forces.angular[i], half_step);
     });
-    if (!step.state.springs.empty())
+    if (has_springs)
         report.spring_virial =
-            sum_of_spring_stresses(step.state.springs, step.known.pulls, rods, half_way.centre, half_way.axis);
+            sum_of_spring_stresses(step.state.springs, step.known.pulls, rods, half_way.centre, half_way.axis,
+                                   step.domain.ranks(), step.domain.owned_of(rods.size()));
     const std::vector<Vec3>& torque = step.known.exerted.torque;
     report.torque_virial =
         sum_over_ranks<Mat3>(step.domain.ranks(), step.domain.owned_of(torque.size()), [&](std::size_t i) {
@@ -99,13 +100,14 @@ void measure_stress_of_known_forces(const ResolvedStep& step, double time_step, 
 }
 
 /// Theory 6: the sum of the contact forces on each wall, and on all fixed rods.
-void measure_wall_forces(const ResolvedStep& step, StepReport& report) {
-    const std::vector<double>& gamma = step.solution.gamma;
+void measure_wall_forces(const ResolvedStep& step, std::span<const double> gamma, StepReport& report) {
+    const Ranks& ranks = step.domain.ranks();
     for (const Wall& wall : walls_of(step.state.box))
-        report.wall_force[wall.number] = parallel_sum<double>(
-            gamma.size(), [&](std::size_t l) { return step.contacts.contact[l].i == wall.body() ? gamma[l] : 0.0; });
+        report.wall_force[wall.number] = sum_over_ranks<double>(ranks, gamma.size(), [&](std::size_t l) {
+            return step.contacts.contact[l].i == wall.body() ? gamma[l] : 0.0;
+        });
     if (!step.state.box.fixed_rods()) return;
-    report.fixed_rod_force = parallel_sum<Vec3>(gamma.size(), [&](std::size_t l) {
+    report.fixed_rod_force = sum_over_ranks<Vec3>(ranks, gamma.size(), [&](std::size_t l) {
         const Contact& contact = step.contacts.contact[l];
         return is_fixed_rod(contact.i) ? -gamma[l] * contact.normal : Vec3{};
     });
@@ -115,13 +117,14 @@ void measure_wall_forces(const ResolvedStep& step, StepReport& report) {
 
 void measure_stress(const ResolvedStep& step, const SimulationSettings& settings, std::vector<Vec3>& half_way_axis,
                     StepReport& report, CollisionMoments& moments) {
-    if (step.known.by_forces.size() > 0) measure_stress_of_known_forces(step, settings.time_step, report);
+    if (step.known.by_forces.size() > 0)
+        measure_stress_of_known_forces(step, settings.time_step, settings.has_springs, report);
     if (settings.corrects_brownian_motion()) find_half_way_axes(step, settings.time_step, half_way_axis);
     const std::span<const Vec3> axis = settings.corrects_brownian_motion() ? half_way_axis : step.state.rods.axis;
     const ForcesHere forces(step);
     const std::span<const double> gamma = forces.get();
     measure_collision_stress(step, gamma, settings, axis, report, moments);
-    measure_wall_forces(step, report);
+    measure_wall_forces(step, gamma, report);
     report.active_contacts = sum_over_ranks<std::size_t>(
         step.domain.ranks(), gamma.size(), [&](std::size_t l) { return gamma[l] > 0.0 ? std::size_t{1} : 0; });
 }

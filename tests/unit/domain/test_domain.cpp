@@ -143,17 +143,57 @@ TEST_CASE("no rod is lost where rods change their rank, and ghosts are all that 
 TEST_CASE("the first rank gathers all rods in the order of ids, slice by slice") {
     const Box box({20, 20, 20});
     Rods all = random_rods(300, box.edges(), 3.0, 4);
-    for (std::uint64_t& id : all.id) id <<= 14;  // 5 slices
+    for (std::uint64_t& id : all.id) id <<= 40;
     CHECK_NOTHROW(run_as_ranks(4, [&](const Ranks& ranks) {
         Rods rods = all;
         Domain domain(ranks);
         domain.share_out(rods);
         domain.gather(rods, box, 1.0, true);
-        const Rods whole = domain.at_first_rank(rods);
+        const Rods whole = domain.at_first_rank(rods, 50);
         require(whole.size() == (ranks.rank() == 0 ? all.size() : 0), "all are at the first rank, and nowhere else");
         require(std::is_sorted(whole.id.begin(), whole.id.end()), "they are in the order of ids");
         for (std::size_t row = 0; row < whole.size(); ++row)  // whose ids descend
             require(is_same_rod(whole, row, all, all.size() - 1 - row), "a rod has changed");
+    }));
+}
+
+TEST_CASE("any rank is told which rank has a rod, and a rod that is wanted comes however far it is") {
+    const Box box({200, 20, 20});
+    CHECK_NOTHROW(run_as_ranks(4, [&](const Ranks& ranks) {
+        Rods rods = random_rods(300, box.edges(), 3.0, 4);
+        std::vector<std::uint64_t> ids = rods.id;
+        const std::uint64_t none = *std::max_element(ids.begin(), ids.end()) + 1;
+        ids.push_back(none);
+        Domain domain(ranks);
+        domain.share_out(rods);
+        domain.migrate(rods, box, true);
+        const std::vector<int> rank_of = domain.ranks_of(rods, ids);
+        for (std::size_t k = 0; k < ids.size(); ++k) {
+            const bool is_here = std::find(rods.id.begin(), rods.id.end(), ids[k]) != rods.id.end();
+            require((rank_of[k] == ranks.rank()) == is_here, "the rank of a rod is another");
+            require((rank_of[k] == Domain::nobody) == (ids[k] == none), "a rod is lost, or made up");
+        }
+        std::vector<Domain::Wanted> wanted;
+        for (int rank = 0; rank < 4; ++rank)
+            if (rank != ranks.rank()) wanted.push_back({0, rank});
+        domain.fetch_ghosts(rods, box, 0.0, wanted);
+        std::set<int> known;
+        for (auto row = static_cast<std::uint32_t>(domain.owned_of(rods.size())); row < rods.size(); ++row)
+            known.insert(domain.rank_of_peer(domain.peer_of(row)));
+        require(known.size() == 3, "a rod that is wanted has not come");
+    }));
+}
+
+TEST_CASE("cuts give each rank the same work: where rods cost more it has fewer") {
+    const Box box({40, 20, 20});
+    CHECK_NOTHROW(run_as_ranks(2, [&](const Ranks& ranks) {
+        Rods rods = random_rods(2000, box.edges(), 1.0, 4);
+        Domain domain(ranks);
+        domain.share_out(rods);
+        domain.migrate(rods, box, true);
+        require(std::abs(static_cast<int>(rods.size()) - 1000) < 20, "the same number each");
+        domain.migrate(rods, box, true, ranks.rank() == 0 ? 3.0 : 1.0);  // 4000 in all: 667 rods of the first rank
+        require(std::abs(static_cast<int>(rods.size()) - (ranks.rank() == 0 ? 667 : 1333)) < 20, "the same work each");
     }));
 }
 
