@@ -314,7 +314,7 @@ std::vector<StepLimit> step_limits(const Scene& scene, const Mobility& model, co
     append(limits, wall_limits(hardest, narrowest(scene, box, rods), rods, *mobility));
     append(limits, flow_limits(hardest, rods, *mobility));
     if (squeezes_box(scene)) append(limits, squeeze_limits(scene, rods));
-    if (scene.pressure.external) limits.push_back(pressure_limit(scene, rods));
+    if (scene.pressure.external) append(limits, pressure_limits(scene, rods));
     if (scene.contact.model == ContactModel::wca) limits.push_back(potential_limit(hardest, rods, *mobility));
     if (!springs.empty()) limits.push_back(spring_limit(scene, springs, rods, *mobility));
     return limits;

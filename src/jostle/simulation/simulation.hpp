@@ -88,7 +88,7 @@ private:
     bool neighbours_are_known(const StepGeometry& geometry);
     void gather(double skin);
     std::optional<Vec3> follow_schedule();
-    std::optional<Vec3> edges_of_step();
+    std::optional<Vec3> edges_of_step(StepReport& report);
     void renumber();
     void rows_change();
     void update_sizes(const MobilityOperator& mobility);
