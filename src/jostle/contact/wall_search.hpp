@@ -33,6 +33,7 @@ private:
 
     std::vector<Wall> walls_;
     std::vector<std::uint16_t> known_;  ///< (N) a bit for each end and wall that are a contact
+    std::vector<double> gap_at_least_;  ///< (N) less than that of either end from any wall, after the known motion
     std::vector<FoundContacts> blocks_;
 };
 
