@@ -222,7 +222,8 @@ Box narrowest(const Scene& scene, const Box& box, const Rods& rods) {
 std::vector<StepLimit> wall_limits(const Scene& scene, const Box& box, const Rods& rods,
                                    const MobilityOperator& mobility) {
     const double kT = thermal_energy(scene);
-    if (!box.walls().any() || !scene.contact.brownian_correction || kT == 0.0) return {};
+    const bool mirrored = scene.contact.brownian_correction && scene.contact.model == ContactModel::hard;
+    if (!box.walls().any() || !mirrored || kT == 0.0) return {};
     double narrowest = INFINITY;
     for (int k = 0; k < 3; ++k)
         if (!box.periodic()[static_cast<std::size_t>(k)] && k < box.dimensions())
