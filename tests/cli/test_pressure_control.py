@@ -82,6 +82,7 @@ def test_what_a_compression_tells(tmp_path):
 
 @pytest.mark.parametrize("scene, told", [
     (changed(SLIT, pressure={"external": 0.8}), 'coupling = "piston"'),
+    (changed(PRESSED, pressure={"limit_volume_fraction": 0.25}), "is reached as the run begins"),
     (changed(PRESSED, pressure={"coupling": "piston"}), "there are 0 pairs of them"),
     (changed(PISTON, box={"periodic": [True, False, False]}, walls={"faces": [False, True, True]}), "there are 2 pairs of them"),
     (changed(PISTON, box={"periodic": [True, False, False]}), "nothing holds the rods"),

@@ -121,7 +121,7 @@ TEST_CASE("the strain of one step: of all edges alike, or of each by its own for
     CHECK(noisy != edges_under_pressure(state, all, 1.0, {1, 8, 0.01}).edges);
 }
 
-TEST_CASE("forces move a box, or a piston, by so much in a step and no more, and the step tells of it") {
+TEST_CASE("forces move a box by so much in a step and no more, and the step tells of it") {
     using Moves = PressureControl::Moves;
     State state;
     state.box = Box{{2, 3, 4}, {true, true, false}, {{false, false, true}}};
@@ -140,9 +140,7 @@ TEST_CASE("forces move a box, or a piston, by so much in a step and no more, and
     CHECK(stretched.held_back);
     CHECK(stretched.edges.z == doctest::Approx(4.0 * std::exp(0.03)).epsilon(1e-14));
     CHECK(stretched.edges.x == 2.0);
-    control.moves = Moves::plane;
-    CHECK(edges_under_pressure(state, control, kT, context).edges.z == doctest::Approx(4.03).epsilon(1e-14));
-    state.box_force = Vec3{0, 0, 5};
+    state.box_force = Vec3{0, 0, 0.1};
     CHECK_FALSE(edges_under_pressure(state, control, kT, context).held_back);
 }
 

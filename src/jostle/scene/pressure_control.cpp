@@ -192,6 +192,11 @@ void validate_pressure(const Scene& scene) {
     if (scene.pressure.coupling == StrainCoupling::orthogonal && !scene.springs.file.empty())
         refuse("pressure.coupling", "\"orthogonal\"", "springs' part of the force on each edge is not measured",
                "\"isotropic\"", "");
+    const std::optional<double>&limit = scene.pressure.limit_volume_fraction, &begin = scene.box.volume_fraction;
+    if (limit && begin && *limit <= *begin)
+        refuse("pressure.limit_volume_fraction", text(*limit),
+               fmt::format("is reached as the run begins: box.volume_fraction = {}", *begin),
+               fmt::format("greater than {}", *begin), "");
     if (compresses(scene)) validate_compression(scene);
 }
 

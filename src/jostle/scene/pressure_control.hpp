@@ -25,8 +25,8 @@ double pressure_relaxation_time(const Scene& scene, double count, double edge);
 /// thermal motion where nothing resists. `rods`: all, or one that stands for all.
 std::vector<StepLimit> pressure_limits(const Scene& scene, const Rods& rods);
 
-/// How far forces may move the box, or the piston, in a step: so that rods that touch come nearer by as much as
-/// `jostle check` advises. Of the logarithm of the volume, or of each edge; of a piston a length.
+/// How far forces may move the box in a step: so that rods that touch come nearer by as much as `jostle check` advises.
+/// Of the logarithm of the volume, or of each edge. Not of a piston: one contact moves it as far.
 double largest_box_move(const Scene& scene, const Rods& rods);
 
 /// Throws InputError where a bath of pressure does not go with what else the scene has.

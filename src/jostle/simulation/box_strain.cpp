@@ -43,7 +43,7 @@ EdgesUnderPressure moved_by_forces(const State& state, const PressureControl& co
     if (control.moves == Moves::plane) {
         const int k = control.piston;
         const double load = control.external * area_of(piston_of(state.box, k), state.box);
-        edges[k] += move_by(force[k] - load) + noise * normal[0];
+        edges[k] += control.mobility * (force[k] - load) * context.time_step + noise * normal[0];
         return moved;
     }
     const bool each = control.moves == Moves::edges;

@@ -24,8 +24,7 @@ struct PressureControl {
                             ///< length/(time force)
     double rate = 0.0;      ///< without thermal motion: at which the logarithm of the volume falls, or the plane comes,
                             ///< where nothing resists
-    double largest_move = INFINITY;  ///< in a step, by forces: of the logarithm of the volume, or of each edge; of a
-                                     ///< plane a length
+    double largest_move = INFINITY;  ///< in a step, by forces: of the logarithm of the volume, or of each edge
 };
 
 /// The edges at the end of a step.
