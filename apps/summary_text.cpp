@@ -140,6 +140,17 @@ std::string text_of_compression(const Json& last) {
            line("contacts", number("contacts_per_rod", 4) + " of a rod  (in the end)");
 }
 
+/// Forces that would move the box by more in a step bring it to its pressure, but not with the fluctuations it has
+/// there.
+std::string warning_of_held_back(const Json& control) {
+    const double part = control.value("held_back", 0.0);
+    if (part == 0.0) return "";
+    return fmt::format(
+        "WARNING: the box was held back in {:.2g} % of the steps of production, where forces would have "
+        "moved it too far: lengthen pressure.relaxation_time, or shorten the steps\n",
+        100.0 * part);
+}
+
 /// Between walls these are no pressures (theory, section 6).
 bool is_third_of_trace(std::string_view key) {
     return key == "pressure" || key == "pressure_collision";
@@ -188,5 +199,6 @@ std::string summary_text(const Json& summary, const jostle::Scene& scene) {
     text += line("equilibrium", (withheld ? "WARNING: " : "") + equilibrium["in_words"].get<std::string>());
     text += line("largest overlap", fmt::format("{:.2e} D", summary["max_overlap"].get<double>()));
     for (const Checks& checks : all_checks) text += warnings_of_checks(checks, summary["checks"]);
+    if (summary.contains("pressure_control")) text += warning_of_held_back(summary["pressure_control"]);
     return text;
 }

@@ -20,9 +20,20 @@ AVERAGES = {"Z": "compressibility factor Z", "pressure": "pressure", "pressure_c
             "pressure_springs": "pressure of springs", "pressure_active": "active pressure",
             "nematic_order": "nematic order S", "anisotropy": "stress anisotropy",
             "anisotropy_collision": "anisotropy of the collision stress",
+            "wall_pressure": "wall pressure", "wall_pressure_x": "wall pressure x", "wall_pressure_y": "wall pressure y",
+            "wall_pressure_z": "wall pressure z",
             "viscosity_at_rest": "viscosity at rest, of Brownian motion and collisions"}
+# Of a table of the summary, in the same form.
+FLOW = {"viscosity": "viscosity, of Brownian motion and collisions", "viscosity_of_turning": "viscosity of turning",
+        "N1": "first normal stress difference N1", "N2": "second normal stress difference N2",
+        "storage_modulus": "storage modulus G′, of Brownian motion and collisions",
+        "loss_modulus": "loss modulus G″, of Brownian motion and collisions"}
+BATH = {"volume_fraction": "mean volume fraction", "Z": "Z = P V/(N kT)", "volume": "volume of the box"}
 CHECKS = {"total_stress_ratio": "stress along/across the director", "collision_stress_ratio": "collision stress along/across the director"}
-KEY_AVERAGES = {"Z": "Z", "pressure": "pressure", "pressure_active": "active pressure", "nematic_order": "nematic order S"}
+WALLS = "wall_pressure"       # begins the names of pressures on walls; between walls a third of the trace of a stress is no pressure
+THIRDS_OF_TRACE = ("pressure", "pressure_collision")
+KEY_AVERAGES = {"Z": "Z", "pressure": "pressure", "wall_pressure": "wall pressure", "wall_pressure_x": "wall pressure x",
+                "wall_pressure_y": "wall pressure y", "wall_pressure_z": "wall pressure z", "pressure_active": "active pressure", "nematic_order": "nematic order S"}
 SIGNS = {"good": "✓", "bad": "!", "open": "·"}
 
 
@@ -72,9 +83,8 @@ def tile_list(tiles):
 
 def average_tiles(run):
     """The most important averages, with their errors."""
-    for name, words in KEY_AVERAGES.items():
-        average = run.summary.get(name)
-        if average and average["mean"] is not None:
+    for words, average in averages_of(run.summary, KEY_AVERAGES):
+        if average["mean"] is not None:
             factor, unit = run.readable(average.get("unit", "1"))
             mean, error = factor * average["mean"], average.get("standard_error")
             note = "no error bar" if error is None else f"{average['n_eff']:.0f} independent samples"
@@ -144,10 +154,23 @@ def averages(run):
                     checks(run)])
 
 
+def all_averages(run):
+    """(words, average) of all that the summary has."""
+    yield from averages_of(run.summary, AVERAGES)
+    yield from averages_of(run.summary.get("flow", {}), FLOW)
+    yield from averages_of(run.summary.get("pressure_control", {}), BATH)
+
+
+def averages_of(table, names):
+    walled = any(name.startswith(WALLS) for name in table)
+    for name, words in names.items():
+        if name in table and not (walled and name in THIRDS_OF_TRACE):
+            yield words, table[name]
+
+
 def average_rows(run):
-    for name, words in AVERAGES.items():
-        average = run.summary.get(name)
-        if average and average["mean"] is not None:
+    for words, average in all_averages(run):
+        if average["mean"] is not None:
             error = average.get("standard_error")
             n_eff = average.get("n_eff")
             factor, unit = run.readable(average.get("unit", "1"))
@@ -190,8 +213,8 @@ def check_row(words, check):
 def reasons(run):
     """Why some averages have no error bar."""
     missing = {}
-    for name, words in AVERAGES.items():
-        reason = run.summary.get(name, {}).get("no_standard_error_because")
+    for words, average in all_averages(run):
+        reason = average.get("no_standard_error_because")
         if reason:
             missing.setdefault(reason, []).append(words)
     return "".join(f'<p class="note">No error bar of {html.escape(", ".join(words))}: {html.escape(reason)}</p>\n'

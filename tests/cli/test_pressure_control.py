@@ -5,7 +5,7 @@ import signal
 
 import pytest
 
-from jostle_command import (DONE, RODS, STOPPED, changed, column, command, finish, kill, require_one_line, require_same_results, rows_of,
+from jostle_command import (DONE, RODS, STOPPED, changed, column, command, finish, kill, require_one_line, require_refused, require_same_results, rows_of,
                             start, stop_and_kill, wait_until, with_steps, write_scene)
 
 PRESSED = changed(RODS, pressure={"external": 0.8})
@@ -34,6 +34,21 @@ def test_a_limit_ends_the_run(tmp_path):
     folder = finish(tmp_path)
     assert column(folder / "series.csv", "phi")[-1] > 0.26
     assert json.loads((folder / "summary.json").read_text())["rods"] == 50
+
+
+def test_a_box_far_from_its_pressure(tmp_path):
+    """It comes to it in steps that contacts can follow, which are counted; and does not see-saw about it."""
+    write_scene(tmp_path, changed(with_steps(PRESSED, 1500), box={"volume_fraction": 0.05}, pressure={"external": 3.0, "relaxation_time": 20.0},
+                                  time={"equilibration": 2.0}))
+    folder = finish(tmp_path)
+    held_back = column(folder / "series.csv", "held_back")
+    assert max(held_back[:5]) > 0.5 and max(held_back[-20:]) == 0.0 and column(folder / "series.csv", "phi")[-1] > 0.35
+    assert json.loads((folder / "summary.json").read_text())["pressure_control"]["held_back"] < 1.0
+
+
+def test_a_box_that_would_see_saw_is_refused(tmp_path):
+    require_refused(tmp_path, changed(PRESSED, pressure={"external": 5.0, "relaxation_time": 1.0, "coupling": "orthogonal"}),
+                    "pressure.relaxation_time = 1", "lets the bath move the box so far", "at most 0.1 is possible")
 
 
 SLIT = changed(RODS, box={"volume_fraction": None, "edges": [8.0, 8.0, 8.0], "periodic": [True, True, False]},
@@ -67,6 +82,7 @@ def test_what_a_compression_tells(tmp_path):
 
 @pytest.mark.parametrize("scene, told", [
     (changed(SLIT, pressure={"external": 0.8}), 'coupling = "piston"'),
+    (changed(PRESSED, pressure={"limit_volume_fraction": 0.25}), "is reached as the run begins"),
     (changed(PRESSED, pressure={"coupling": "piston"}), "there are 0 pairs of them"),
     (changed(PISTON, box={"periodic": [True, False, False]}, walls={"faces": [False, True, True]}), "there are 2 pairs of them"),
     (changed(PISTON, box={"periodic": [True, False, False]}), "nothing holds the rods"),

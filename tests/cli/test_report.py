@@ -317,3 +317,18 @@ def test_damaged_series_and_full_disk(finished_copy):
     series = finished_copy / "run/series.csv"
     series.write_text(series.read_text().replace(",", ";", 40))
     require_one_line(command(finished_copy, "report", "run"), "series.csv", "cannot be used")
+
+
+def test_what_a_set_up_adds(tmp_path):
+    """Moduli of a flow to and fro, the pressure on walls in the place of that of a bulk, the volume in a bath."""
+    flow = changed(with_steps(RODS, 300), flow={"strain_amplitude": 0.2, "frequency": 0.5}, rods={"length": 1.0})
+    slit = changed(RODS, box={"volume_fraction": None, "edges": [8.0, 8.0, 8.0], "periodic": [True, True, False]}, walls={"faces": [False, False, True]})
+    for name, scene, told, absent in (("flow", flow, ("storage modulus G′", "loss modulus G″"), None),
+                                      ("slit", slit, ("wall pressure z",), "pressure"),
+                                      ("bath", changed(RODS, pressure={"external": 0.8}), ("mean volume fraction", "Z = P V/(N kT)"), None)):
+        write_scene(tmp_path / name, scene)
+        finish(tmp_path / name)
+        page, _ = report(tmp_path / name)
+        for words in told:
+            assert f"<td>{words}" in page, (name, words)
+        assert absent is None or f"<td>{absent}</td>" not in page

@@ -31,7 +31,6 @@ REFUSED = [
     (changed(CAVITY, box={"volume_fraction": None, "shape": None, "edges": [2.9, 2.9, 2.9]}, rods={"count": 1}), "rods.length", "1.9"),
     (changed(SLIT, rods={"start": "aligned", "axis": [0.0, 0.0, 1.0], "length": 8.5, "count": 2}), "rods.axis", "along z"),
     (changed(SLIT, box={"edges": [20.0, 20.0, 1.05]}, rods={"count": 10, "length": 0.0}), "box.edges", "a step of at most"),
-    (changed(SLIT, contact={"model": "wca"}), "contact.model", "hard"),
     (changed(CAVITY, mobility={"model": "hydrodynamic"}), "mobility.model", "beside walls"),
     (changed(RODS, walls={"torque": False}), "walls.torque", "without walls"),
     (changed(SLIT, walls={"axis": "y"}), "walls.axis", "without a tube"),

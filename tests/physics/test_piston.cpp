@@ -1,12 +1,14 @@
-// A plane that a bath of pressure moves, without thermal motion (theory, section 10).
+// Rows of spheres in a narrow tube: under a piston without thermal motion, and between fixed ends (theory, section 10).
 
 #include <doctest/doctest.h>
 
 #include <numbers>
 
 #include "jostle/setup/assemble.hpp"
+#include "support/sample.hpp"
 
 using namespace jostle;
+using test::Sample;
 
 namespace {
 
@@ -50,4 +52,33 @@ TEST_CASE("a row without thermal motion is pressed together until it bears the l
     CHECK(row.box().edges().x == doctest::Approx(5.0).epsilon(1e-5));
     CHECK(last.wall_force[1] == doctest::Approx(10.0).epsilon(1e-4));
     CHECK(last.wall_force[0] == doctest::Approx(last.wall_force[1]).epsilon(1e-4));
+}
+
+TEST_CASE("a row between fixed ends presses on them as Tonks' gas does, but for its zigzag") {
+    // kT d ln Z/dl with Z = <(l - D - s)^3>, s the sum of the two spacings, by quadrature over the places across the
+    // tube: studies/constant_pressure.py. Without the zigzag it would be 3 kT/(l - 3 D) = 1.
+    constexpr double exact = 0.978697, distance = 2.0;
+    std::vector<double> blocks;
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        Scene scene = row_of(3, 0.75, distance, 1.0);
+        scene.seed = seed;
+        scene.pressure = {};
+        scene.time.rms_step = 0.06;
+        Simulation row = assemble(scene, row_at(scene, distance));
+        for (int k = 0; k < 5000; ++k) row.step();
+        for (int block = 0; block < 6; ++block) {  // each some 20 times as long as the row relaxes
+            double force = 0.0;
+            constexpr int steps = 10000;
+            for (int k = 0; k < steps; ++k) {
+                const StepReport report = row.step();
+                REQUIRE(report.status == LcpStatus::converged);
+                force += 0.5 * (report.wall_force[0] + report.wall_force[1]) / steps;
+            }
+            blocks.push_back(force);
+        }
+    }
+    const Sample force(blocks);
+    MESSAGE("force on an end = " << force.mean << " +- " << force.error << " kT/D, exact " << exact);
+    CHECK(force.error < 0.03);
+    CHECK(force.agrees_with(exact));
 }

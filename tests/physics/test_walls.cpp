@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "jostle/contact/wca_forces.hpp"
 #include "jostle/setup/assemble.hpp"
 #include "jostle/setup/start.hpp"
 #include "jostle/stress/spherocylinder_moments.hpp"
@@ -96,6 +97,42 @@ TEST_CASE("ideal rods in a slit under their weight: the walls feel the whole str
     MESSAGE("V(Sigma_zz + moment - P_w)/kT of a rod = " << difference.mean << " +- " << difference.error);
     CHECK(difference.error < 0.04);  // the moment is 1.099, the orientation stress 0.234
     CHECK(difference.agrees_with(0.0));
+}
+
+TEST_CASE(
+    "ideal soft rods in a slit: the wall force is that of their Boltzmann weights, and the stress that of the walls") {
+    // Each end feels the potential of both planes. The force on each is kT d ln Z/dH, by quadrature.
+    const double length = 2.0, width = 5.0;
+    const auto potential = [](double gap) {
+        const double r = gap + 1.0;
+        if (r >= wca_range) return 0.0;
+        if (r <= 0.3) return 1e3;
+        const double sixth = std::pow(r, -6.0);
+        return 4.0 * sixth * (sixth - 1.0) + 1.0;
+    };
+    const auto weights = [&](double H) {
+        double sum = 0.0;
+        constexpr int points = 400;
+        for (int i = 0; i < points; ++i)
+            for (int j = 0; j < points; ++j) {
+                const double z = H * (i + 0.5) / points, rise = 0.5 * length * (j + 0.5) / points;
+                double energy = 0.0;
+                for (const double end : {z - rise, z + rise}) energy += potential(end - 0.5) + potential(H - end - 0.5);
+                sum += H / points * std::exp(-energy);
+            }
+        return sum;
+    };
+    const double exact = (std::log(weights(width + 0.01)) - std::log(weights(width - 0.01))) / 0.02;
+    Scene scene = scene_of(length, 1500, 0.02);
+    scene.contact.model = ContactModel::wca;
+    const OfEachRod rods = ideal_rods_in_slit(scene, width, 6000, 12000);
+    std::vector<double> of_a_plane;
+    for (const double force : rods.force) of_a_plane.push_back(0.5 * force);
+    const Sample F(of_a_plane);
+    MESSAGE("force on each plane = " << F.mean << " +- " << F.error << ", exact " << exact);
+    CHECK(F.error < 0.02 * exact);
+    CHECK(F.agrees_with(exact));
+    CHECK(Sample(rods.stress_less_wall).agrees_with(0.0));
 }
 
 TEST_CASE("ideal rods in a sphere: the wall force is that of the overlap of two balls") {

@@ -13,14 +13,20 @@ void add(const Contact& contact, Contacts& contacts) {
     contacts.push_back(contact, {0, 0, 0}, ContactFeature::end_of_j);
 }
 
-/// Whether no end of the rod comes within this range of the wall: from the centre, which is cheaper than from each end.
-/// An end is as much nearer to a plane as the axis is inclined, and to a container at most half a length.
-bool is_far(const Wall& wall, std::uint32_t row, double range, const StepGeometry& step) {
+/// Less than the gap of either end of the rod from any wall, after the known motion: from the centre, which is cheaper
+/// than from each end. An end is as much nearer to a plane as the axis is inclined, and to a container at most half a
+/// length.
+double gap_at_least(std::span<const Wall> walls, std::uint32_t row, const StepGeometry& step) {
+    const Walls& of_box = step.box.walls();
+    const Vec3 &centre = step.known.centre[row], &axis = step.known.axis[row], &edges = step.box.edges();
     const double half = 0.5 * step.rods.length[row], radius = 0.5 * step.rods.diameter[row];
-    const double inclined =
-        wall.shape == Wall::Shape::plane ? std::fabs(dot(step.known.axis[row], wall.direction)) : 1.0;
+    double nearest = INFINITY;
+    for (int k = 0; k < 3; ++k)
+        if (of_box.faces[static_cast<std::size_t>(k)])
+            nearest = std::min(nearest, std::min(centre[k], edges[k] - centre[k]) - half * std::fabs(axis[k]));
+    if (of_box.container != Container::none) nearest = std::min(nearest, walls.back().distance(centre) - half);
     const double rounding = 1e-9 * (half + radius);
-    return wall.distance(step.known.centre[row]) - half * inclined - radius - rounding > range;
+    return nearest - radius - rounding;
 }
 
 /// The point at `arm` of a rod after the known motion.
@@ -43,8 +49,10 @@ Contact contact_of_step(const Wall& wall, std::uint32_t row, double arm, const S
 double WallSearch::find(const StepGeometry& step, Contacts& contacts) {
     walls_ = walls_of(step.box);
     if (walls_.empty()) return 0.0;
-    known_.assign(step.own_rods(), 0);
-    return append_found(known_.size(), blocks_, contacts, [&](std::size_t row, FoundContacts& found) {
+    const std::size_t count = step.own_rods();
+    known_.assign(count, 0);
+    gap_at_least_.resize(count);
+    return append_found(count, blocks_, contacts, [&](std::size_t row, FoundContacts& found) {
         search(static_cast<std::uint32_t>(row), step, found);
     });
 }
@@ -52,8 +60,9 @@ double WallSearch::find(const StepGeometry& step, Contacts& contacts) {
 void WallSearch::search(std::uint32_t row, const StepGeometry& step, FoundContacts& found) {
     const Rods& rods = step.rods;
     const double range = std::max(step.ranges.activation_margin, step.ranges.range);
+    gap_at_least_[row] = gap_at_least(walls_, row, step);
+    if (gap_at_least_[row] > range + step.displacement[row]) return;
     for (const Wall& wall : walls_) {
-        if (is_far(wall, row, range + step.displacement[row], step)) continue;
         for (const double arm : wall_arms(step.box.walls(), rods.length[row])) {
             const double after = wall.gap(known_point(row, arm, step), rods.diameter[row]);
             if (after - step.displacement[row] > range) continue;
@@ -70,7 +79,9 @@ Contacts WallSearch::violated(const StepGeometry& step, const EndConfiguration& 
     Contacts all;
     if (walls_.empty()) return all;
     append_found(end.rows.size(), blocks_, all, [&](std::size_t k, FoundContacts& found) {
-        if (end.rows[k] < step.own) search_again(end.rows[k], end.displacement[k].farthest, step, end, found.contacts);
+        const std::uint32_t row = end.rows[k];
+        const double farthest = end.displacement[k].farthest;
+        if (row < step.own && gap_at_least_[row] <= farthest) search_again(row, farthest, step, end, found.contacts);
     });
     return all;
 }
@@ -79,7 +90,6 @@ void WallSearch::search_again(std::uint32_t row, double farthest, const StepGeom
                               Contacts& found) {
     const Rods& rods = step.rods;
     for (const Wall& wall : walls_) {
-        if (is_far(wall, row, farthest, step)) continue;
         for (const double arm : wall_arms(step.box.walls(), rods.length[row])) {
             const double after = wall.gap(known_point(row, arm, step), rods.diameter[row]);
             if (after > farthest || is_contact(row, wall, arm)) continue;

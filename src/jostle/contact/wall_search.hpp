@@ -33,6 +33,7 @@ private:
 
     std::vector<Wall> walls_;
     std::vector<std::uint16_t> known_;  ///< (own rods) a bit for each end and wall that are a contact
+    std::vector<double> gap_at_least_;  ///< (own rods) below that of either end from any wall, after the known motion
     std::vector<FoundContacts> blocks_;
 };
 

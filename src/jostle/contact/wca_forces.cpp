@@ -1,6 +1,7 @@
 #include "jostle/contact/wca_forces.hpp"
 
 #include "jostle/parallel/parallel_for.hpp"
+#include "jostle/rods/wall.hpp"
 
 namespace jostle {
 
@@ -8,6 +9,7 @@ namespace {
 
 /// How many contacts share the potential of the pair that contact `l` belongs to: 0 if it has no part in it.
 double sharers(const Contacts& contacts, std::size_t l) {
+    if (is_wall(contacts.contact[l].i)) return 1.0;
     const auto same_pair = [&](std::size_t other) { return pair_of(contacts, other) == pair_of(contacts, l); };
     std::size_t first = l, last = l + 1;
     while (first > 0 && same_pair(first - 1)) --first;
@@ -25,7 +27,7 @@ std::vector<double> wca_forces(const Contacts& contacts, const Rods& rods, doubl
         const Contact& contact = contacts.contact[l];
         const double share = sharers(contacts, l);
         if (share == 0.0) return;
-        const double diameter = contact_radii(contact, rods);
+        const double diameter = is_wall(contact.i) ? rods.diameter[contact.j] : contact_radii(contact, rods);
         forces[l] = wca_force(contact.gap + diameter, diameter, energy) / share;
     });
     return forces;

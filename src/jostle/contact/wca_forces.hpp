@@ -30,7 +30,8 @@ inline double wca_curvature(double height, double diameter, double energy) {
 }
 
 /// One force a contact. A pair feels its potential once: at its nearest points, or, where the ends of the stretch along
-/// which it lies side by side stand for them, at these in equal parts.
+/// which it lies side by side stand for them, at these in equal parts. A wall repels each end of a rod by itself, as
+/// the surface of another rod at the same gap does.
 std::vector<double> wca_forces(const Contacts& contacts, const Rods& rods, double energy);
 
 }  // namespace jostle

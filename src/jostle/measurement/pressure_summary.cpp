@@ -56,6 +56,7 @@ Json pressure_control_entry(const SummarisedRun& run) {
         entry["Z"] = described(average(factor), "");
         entry["compressibility"] = compressibility_entry(volume, kT);
     }
+    if (kT > 0.0) entry["held_back"] = column_mean(run.column("held_back"));
     if (kT == 0.0)
         entry["last"] = {{"volume_fraction", series.column("phi").back()},
                          {"pressure_over_external", pressure_on_bath(run).back() / *scene.pressure.external},

@@ -176,6 +176,11 @@ void add_volume_columns(const Scene& scene, Series& series) {
     series.add_elements(
         edge_column_names, {"", unit_of(scene, dimension::length), "", "edge of the box at this step", ""},
         [](const RowState& row, std::size_t k) { return row.simulation.box().edges()[static_cast<int>(k)]; });
+    series.columns.push_back({{"held_back", "1", "",
+                               "part of the steps since the last row in which forces would have moved the box by more "
+                               "than a step may; 0 of a piston",
+                               ""},
+                              [](const RowState& row) { return *row.sums.held_back / row.sums.steps; }});
 }
 
 void add_active_columns(const Scene& scene, Series& series) {

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_walls.hpp"
 #include "jostle/scene/units.hpp"
 #include "jostle/stress/column_names.hpp"
@@ -67,6 +68,13 @@ TableColumns<ContactState> contact_columns(const Scene& scene) {
                      {{"id_j", "1", "j", "id of the second rod", ""}, id(1)}};
     table.add_elements(std::array{"image_x", "image_y", "image_z"}, image,
                        [](const Item& item, std::size_t k) { return static_cast<double>(item.contact.image[k]); });
+    if (has_flow(scene))
+        table.columns.push_back(
+            {{"offset", length, "",
+              "by which the box's copies above are displaced along x: an image by m box edges along "
+              "y is displaced along x by m times it, too",
+              ""},
+             [](const Item& item) { return item.offset; }});
     table.columns.push_back(
         {{"force", unit_of(scene, dimension::force), "gamma", "contact force", "positive: repulsive"},
          [](const Item& item) { return item.force; }});
@@ -103,7 +111,8 @@ TableRows contact_rows(const TableColumns<ContactState>& columns, const Simulati
         const Contact& contact = simulation.contacts().contact[l];
         if (!simulation.counts(l)) continue;
         bodies.push_back({id_of_body(contact.i, ids), ids[contact.j]});
-        rows.push_back(columns.row({simulation.clock(), contact_by_id(simulation, l), gamma[l], contact.gap}));
+        rows.push_back(columns.row(
+            {simulation.clock(), contact_by_id(simulation, l), gamma[l], contact.gap, simulation.box().offset()}));
     }
     return at_first_rank(std::move(rows), std::move(bodies), columns.columns.size(), simulation.domain().ranks());
 }

@@ -18,6 +18,7 @@ struct ContactState {
     const Clock& clock;
     ContactById contact;
     double force, gap;
+    double offset;  ///< of the copies above, where a flow shears the box
 };
 TableColumns<ContactState> contact_columns(const Scene& scene);
 /// All of the last step. Of several ranks they are for rank 0, and all call it together.

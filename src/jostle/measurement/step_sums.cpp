@@ -71,6 +71,7 @@ void StepSums::add(const StepReport& report) {
     centre_line_virial += report.centre_line_virial;
     if (torque_virial) *torque_virial += report.torque_virial;
     if (fixed_rod_force) *fixed_rod_force += report.fixed_rod_force;
+    if (held_back) *held_back += report.box_held_back ? 1.0 : 0.0;
     for (std::size_t wall = 0; wall < max_walls; ++wall) wall_force[wall] += report.wall_force[wall];
     contacts += static_cast<double>(report.contacts);
     active_contacts += static_cast<double>(report.active_contacts);
@@ -159,6 +160,7 @@ void StepSums::start_row() {
     if (kT) fresh.kT = 0.0;
     if (fixed_rod_force) fresh.fixed_rod_force.emplace();
     if (torque_virial) fresh.torque_virial.emplace();
+    if (held_back) fresh.held_back = 0.0;
     fresh.run_max_overlap = run_max_overlap;
     fresh.active_stress = std::move(active_stress);
     fresh.field = std::move(field);
@@ -172,6 +174,7 @@ NamedNumbers StepSums::to_named(const Ranks& ranks) const {
         numbers[name].assign(values.begin(), values.end());
     });
     if (kT) numbers["kT"] = {*kT};
+    if (held_back) numbers["held_back"] = {*held_back};
     if (torque_virial) numbers["torque_virial"].assign(torque_virial->m.begin(), torque_virial->m.end());
     if (const auto& force = fixed_rod_force) numbers["fixed_rod_force"] = {force->x, force->y, force->z};
     if (active_stress) add_under("active_stress", numbers, at_first_rank(active_stress->to_named(), ranks));
@@ -191,6 +194,7 @@ StepSums StepSums::from_named(NamedNumbers numbers, const Scene& scene, const Bo
     };
     for_each_sum(sums, [&](const char* name, auto& sum) { take(name, numbers_of(sum)); });
     if (!scene.schedule.kT.empty()) take("kT", {&sums.kT.emplace(), 1});
+    if (scene.pressure.external) take("held_back", {&sums.held_back.emplace(), 1});
     if (box.fixed_rods()) {
         std::array<double, 3> force{};
         take("fixed_rod_force", force);
@@ -216,6 +220,7 @@ StepSums first_sums(const Scene& scene, const Simulation& simulation) {
     StepSums sums;
     sums.field = make_field(scene, simulation.box());
     if (!scene.schedule.kT.empty()) sums.kT = 0.0;
+    if (scene.pressure.external) sums.held_back = 0.0;
     if (has_torques(scene)) sums.torque_virial.emplace();
     if (simulation.box().fixed_rods()) sums.fixed_rod_force.emplace();
     if (!swims(scene)) return sums;

@@ -26,6 +26,7 @@ struct StepSums {
     std::optional<Mat3> torque_virial;           ///< where the scene has torques
     std::array<double, max_walls> wall_force{};  ///< by the numbers of the walls
     std::optional<Vec3> fixed_rod_force;         ///< where there are fixed rods
+    std::optional<double> held_back;             ///< steps in which the box was, under a bath of pressure
     double contacts = 0.0;
     double active_contacts = 0.0;
     double iterations = 0.0;

@@ -56,20 +56,57 @@ double pressure_relaxation_time(const Scene& scene, double count, double edge) {
                             : size * size / diffusion_of_a_rod(scene);
 }
 
-StepLimit pressure_limit(const Scene& scene, const Rods& rods) {
+namespace {
+
+/// By how much the box moves where it brings rods that touch, end to end, nearer by a diameter: of the logarithm of the
+/// volume, or of each edge; of a piston a length.
+double move_of_a_diameter(const Scene& scene, const Rods& rods) {
     double slenderest = 0.0, thinnest = INFINITY;
     for (std::size_t i = 0; i < rods.size(); ++i) {
         slenderest = std::max(slenderest, (rods.length[i] + rods.diameter[i]) / rods.diameter[i]);
         thinnest = std::min(thinnest, rods.diameter[i]);
     }
+    if (is_piston(scene)) return thinnest;
+    return scene.pressure.coupling == StrainCoupling::orthogonal ? 1.0 / slenderest : 3.0 / slenderest;
+}
+
+}  // namespace
+
+double largest_box_move(const Scene& scene, const Rods& rods) {
+    return advised_strain * move_of_a_diameter(scene, rods);
+}
+
+namespace {
+
+double count_of(const Scene& scene, const Rods& rods) {
+    return static_cast<double>(rods_are_given(scene) ? rods.size() : scene.rods.count);
+}
+
+/// How far the bath moves the box in a step where rods that cannot be packed closer press as an ideal gas would; the
+/// piston where nothing presses it. In equilibrium contacts resist by as much, and where that is far in one step the
+/// box see-saws about its volume.
+StepLimit bath_limit(const Scene& scene, const Rods& rods, const StepLimit& of_noise) {
+    const double volume = volume_of_all(scene, rods), edge = box_edges(scene, volume)[piston_direction(scene)];
+    const double smallest = is_piston(scene) ? share_of_box(scene.walls.container) * volume_of(box_edges(scene, volume))
+                                             : volume / close_packing(scene.rods.length / scene.rods.diameter, 3);
+    const double count = count_of(scene, rods), gas = count * thermal_energy(scene) / smallest;
+    StepLimit limit = of_noise;
+    limit.harm = "lets the bath move the box so far that contacts cannot follow";
+    limit.what = is_piston(scene) ? "the bath, where nothing resists, moves the piston by"
+                                  : "the bath brings rods that touch nearer, at close packing and without contact "
+                                    "forces, by";
+    limit.rate = *scene.pressure.external / gas / pressure_relaxation_time(scene, count, edge);
+    limit.diffusive = false;
+    limit.automatic = advised_strain;
+    return limit;
+}
+
+StepLimit noise_limit(const Scene& scene, const Rods& rods) {
     const bool thermal = thermal_energy(scene) > 0.0;
-    const double count =
-        rods_are_given(scene) ? static_cast<double>(rods.size()) : static_cast<double>(scene.rods.count);
+    const double count = count_of(scene, rods);
     const double edge = box_edges(scene, volume_of_all(scene, rods))[piston_direction(scene)];
     const double time = pressure_relaxation_time(scene, count, edge);
-    const double scale = is_piston(scene)                                        ? thinnest / edge
-                         : scene.pressure.coupling == StrainCoupling::orthogonal ? 1.0 / slenderest
-                                                                                 : 3.0 / slenderest;
+    const double scale = move_of_a_diameter(scene, rods) / (is_piston(scene) ? edge : 1.0);
     return {.key = "pressure.relaxation_time",
             .value = rounded(time),
             .harm = thermal ? "lets the box tremble so that contacts cannot follow"
@@ -84,6 +121,14 @@ StepLimit pressure_limit(const Scene& scene, const Rods& rods) {
             .automatic = automatic_strain,
             .advised = advised_strain,
             .largest = largest_strain};
+}
+
+}  // namespace
+
+std::vector<StepLimit> pressure_limits(const Scene& scene, const Rods& rods) {
+    std::vector<StepLimit> limits = {noise_limit(scene, rods)};
+    if (thermal_energy(scene) > 0.0) limits.push_back(bath_limit(scene, rods, limits.front()));
+    return limits;
 }
 
 namespace {
@@ -147,6 +192,11 @@ void validate_pressure(const Scene& scene) {
     if (scene.pressure.coupling == StrainCoupling::orthogonal && !scene.springs.file.empty())
         refuse("pressure.coupling", "\"orthogonal\"", "springs' part of the force on each edge is not measured",
                "\"isotropic\"", "");
+    const std::optional<double>&limit = scene.pressure.limit_volume_fraction, &begin = scene.box.volume_fraction;
+    if (limit && begin && *limit <= *begin)
+        refuse("pressure.limit_volume_fraction", text(*limit),
+               fmt::format("is reached as the run begins: box.volume_fraction = {}", *begin),
+               fmt::format("greater than {}", *begin), "");
     if (compresses(scene)) validate_compression(scene);
 }
 

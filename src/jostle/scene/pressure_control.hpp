@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "jostle/motion/step_limit.hpp"
 #include "jostle/rods/rods.hpp"
 #include "jostle/scene/scene.hpp"
@@ -19,9 +21,13 @@ int piston_direction(const Scene& scene);
 /// the pressure. `edge`: of the box across the piston, at the start.
 double pressure_relaxation_time(const Scene& scene, double count, double edge);
 
-/// How far the box, or the piston, brings rods that touch nearer in a step: by its noise, or without thermal motion
-/// where nothing resists. `rods`: all, or one that stands for all.
-StepLimit pressure_limit(const Scene& scene, const Rods& rods);
+/// How far the box, or the piston, brings rods that touch nearer in a step: by its noise and by the bath, or without
+/// thermal motion where nothing resists. `rods`: all, or one that stands for all.
+std::vector<StepLimit> pressure_limits(const Scene& scene, const Rods& rods);
+
+/// How far forces may move the box in a step: so that rods that touch come nearer by as much as `jostle check` advises.
+/// Of the logarithm of the volume, or of each edge. Not of a piston: one contact moves it as far.
+double largest_box_move(const Scene& scene, const Rods& rods);
 
 /// Throws InputError where a bath of pressure does not go with what else the scene has.
 void validate_pressure(const Scene& scene);

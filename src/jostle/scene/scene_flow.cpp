@@ -92,13 +92,9 @@ void validate_flow(const Scene& scene) {
                fmt::format("[true, true, {}]", periodic[2]),
                "Put planes across z alone (walls.faces); they have no friction, so no wall could drive a flow");
     check_motion_in_flow(scene, key, value);
-    const auto refuse_output = [&, key = key](const char* output, const std::string& given, const char* problem) {
-        refuse(output, given, fmt::format("{}, and {} shears it", problem, key), "", "Remove it, or [flow]");
-    };
     if (scene.output.field_every > 0)
-        refuse_output("output.field_every", text(static_cast<double>(scene.output.field_every)),
-                      "divides a box into cells that stay");
-    if (scene.output.contacts) refuse_output("output.contacts", "true", "names contacts by whole edges of a box");
+        refuse("output.field_every", text(static_cast<double>(scene.output.field_every)),
+               fmt::format("divides a box into cells that stay, and {} shears it", key), "", "Remove it, or [flow]");
 }
 
 void validate_sheared_box(const Scene& scene, double rods_volume, double longest) {

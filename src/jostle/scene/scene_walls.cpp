@@ -135,8 +135,6 @@ void validate_walls(const Scene& scene, double rods_volume, double longest, doub
     check_periodic(scene);
     check_container(scene, rods_volume);
     check_room_of_rods(scene, rods_volume, longest, thickest);
-    if (scene.contact.model == ContactModel::wca)
-        refuse("contact.model", "\"wca\"", "has no potential of walls, which are hard", "\"hard\"");
     if (scene.mobility.model == MobilityModel::hydrodynamic)
         refuse("mobility.model", "\"hydrodynamic\"", "knows no flow beside walls",
                "a drag of each rod alone, \"capsule\"");

@@ -222,7 +222,8 @@ Box narrowest(const Scene& scene, const Box& box, const Rods& rods) {
 std::vector<StepLimit> wall_limits(const Scene& scene, const Box& box, const Rods& rods,
                                    const MobilityOperator& mobility) {
     const double kT = thermal_energy(scene);
-    if (!box.walls().any() || !scene.contact.brownian_correction || kT == 0.0) return {};
+    const bool mirrored = scene.contact.brownian_correction && scene.contact.model == ContactModel::hard;
+    if (!box.walls().any() || !mirrored || kT == 0.0) return {};
     double narrowest = INFINITY;
     for (int k = 0; k < 3; ++k)
         if (!box.periodic()[static_cast<std::size_t>(k)] && k < box.dimensions())
@@ -314,7 +315,7 @@ std::vector<StepLimit> step_limits(const Scene& scene, const Mobility& model, co
     append(limits, wall_limits(hardest, narrowest(scene, box, rods), rods, *mobility));
     append(limits, flow_limits(hardest, rods, *mobility));
     if (squeezes_box(scene)) append(limits, squeeze_limits(scene, rods));
-    if (scene.pressure.external) limits.push_back(pressure_limit(scene, rods));
+    if (scene.pressure.external) append(limits, pressure_limits(scene, rods));
     if (scene.contact.model == ContactModel::wca) limits.push_back(potential_limit(hardest, rods, *mobility));
     if (!springs.empty()) limits.push_back(spring_limit(scene, springs, rods, *mobility));
     return limits;

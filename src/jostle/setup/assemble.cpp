@@ -57,6 +57,7 @@ PressureControl control_of(const Scene& scene, const Rods& rods, double kT) {
                                       : Moves::volume,
                                piston};
     if (kT > 0.0) control.mobility = (plane ? edge * edge : 1.0) / (time * count * kT);
+    if (!plane) control.largest_move = largest_box_move(scene, rods);
     control.rate = (plane ? edge : 1.0) / time;
     return control;
 }

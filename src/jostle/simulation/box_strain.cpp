@@ -26,18 +26,25 @@ Wall piston_of(const Box& box, int direction) {
 }
 
 /// Theory, eq. (10.1), and (10.3) of a plane.
-Vec3 moved_by_forces(const State& state, std::size_t rods, const PressureControl& control, double kT,
-                     const StepContext& context) {
-    Vec3 edges = state.box.edges();
-    if (!state.box_force) return edges;
+EdgesUnderPressure moved_by_forces(const State& state, std::size_t rods, const PressureControl& control, double kT,
+                                   const StepContext& context) {
+    EdgesUnderPressure moved{state.box.edges()};
+    if (!state.box_force) return moved;
+    Vec3& edges = moved.edges;
     const Vec3& force = *state.box_force;
     const std::array<double, 3> normal = noise_of_the_box(context);
     const double noise = std::sqrt(2.0 * kT * control.mobility * context.time_step);
+    const auto move_by = [&](double net_force) {
+        const double move = control.mobility * net_force * context.time_step;
+        if (std::fabs(move) <= control.largest_move) return move;
+        moved.held_back = true;
+        return std::copysign(control.largest_move, move);
+    };
     if (control.moves == Moves::plane) {
         const int k = control.piston;
         const double load = control.external * area_of(piston_of(state.box, k), state.box);
         edges[k] += control.mobility * (force[k] - load) * context.time_step + noise * normal[0];
-        return edges;
+        return moved;
     }
     const bool each = control.moves == Moves::edges;
     const double mean = (force.x + force.y + force.z) / 3.0;
@@ -45,18 +52,18 @@ Vec3 moved_by_forces(const State& state, std::size_t rods, const PressureControl
     const double free = (static_cast<double>(rods) + 1.0) * kT - control.external * state.box.volume();
     for (int k = 0; k < 3; ++k) {
         const auto own = static_cast<std::size_t>(each ? k : 0);
-        const double strain = control.mobility * (free + virial[k]) * context.time_step + noise * normal[own];
+        const double strain = move_by(free + virial[k]) + noise * normal[own];
         edges[k] *= std::exp(each ? strain : strain / 3.0);
     }
-    return edges;
+    return moved;
 }
 
 }  // namespace
 
-Vec3 edges_under_pressure(const State& state, std::size_t rods, const PressureControl& control, double kT,
-                          const StepContext& context) {
-    return kT > 0.0 ? moved_by_forces(state, rods, control, kT, context)
-                    : opened(state.box.edges(), control, -control.rate, context.time_step);
+EdgesUnderPressure edges_under_pressure(const State& state, std::size_t rods, const PressureControl& control, double kT,
+                                        const StepContext& context) {
+    if (kT > 0.0) return moved_by_forces(state, rods, control, kT, context);
+    return {opened(state.box.edges(), control, -control.rate, context.time_step)};
 }
 
 Vec3 force_on_box(const StepReport& report, const PressureControl& control) {

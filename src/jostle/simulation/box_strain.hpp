@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "jostle/contact_problem/box_column.hpp"
 #include "jostle/motion/motion.hpp"
 #include "jostle/simulation/step_report.hpp"
@@ -22,14 +24,24 @@ struct PressureControl {
                             ///< length/(time force)
     double rate = 0.0;      ///< without thermal motion: at which the logarithm of the volume falls, or the plane comes,
                             ///< where nothing resists
+    double largest_move = INFINITY;  ///< in a step, by forces: of the logarithm of the volume, or of each edge
+};
+
+/// The edges at the end of a step.
+struct EdgesUnderPressure {
+    Vec3 edges;
+    bool held_back = false;  ///< forces would have moved them by more than a step may
 };
 
 /// The edges at the end of the step that the state stands before: their logarithms, or the plane, move as one more
 /// body, by the forces of the last step and by noise of `kT` (theory, eqs. 10.1 and 10.3). Those that it has where
 /// these forces are not known. Without thermal motion those that they would have if no contact resisted: `opening_of`
 /// says how contact forces then open the box in the same step. `rods`: so many, of all ranks.
-Vec3 edges_under_pressure(const State& state, std::size_t rods, const PressureControl& control, double kT,
-                          const StepContext& context);
+///
+/// Forces move the box by at most `largest_move` in a step, so that one far from its pressure comes to it by steps that
+/// contacts can follow. Noise is not held back.
+EdgesUnderPressure edges_under_pressure(const State& state, std::size_t rods, const PressureControl& control, double kT,
+                                        const StepContext& context);
 
 /// Forces on the logarithms of the edges, or on the plane, by a step that was made: what the next one needs.
 Vec3 force_on_box(const StepReport& report, const PressureControl& control);

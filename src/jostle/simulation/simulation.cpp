@@ -81,11 +81,13 @@ std::optional<Vec3> Simulation::follow_schedule() {
 }
 
 /// The edges of the box at the end of the step, if it changes.
-std::optional<Vec3> Simulation::edges_of_step() {
+std::optional<Vec3> Simulation::edges_of_step(StepReport& report) {
     std::optional<Vec3> edges = follow_schedule();
-    if (settings_.pressure)
-        edges = edges_under_pressure(state_, rods_in_all(), *settings_.pressure, settings_.kT, context());
-    return edges;
+    if (!settings_.pressure) return edges;
+    const EdgesUnderPressure moved =
+        edges_under_pressure(state_, rods_in_all(), *settings_.pressure, settings_.kT, context());
+    report.box_held_back = moved.held_back;
+    return moved.edges;
 }
 
 /// Now and then: rods near each other in space come near each other in memory.

@@ -104,7 +104,7 @@ private:
     std::vector<Domain::Wanted> rods_held_elsewhere() const;
     void remember_forces(const Contacts& contacts, std::span<const double> gamma);
     std::optional<Vec3> follow_schedule();
-    std::optional<Vec3> edges_of_step();
+    std::optional<Vec3> edges_of_step(StepReport& report);
     void renumber();
     void rows_change();
     void update_sizes(const MobilityOperator& mobility);

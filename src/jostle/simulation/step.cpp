@@ -58,7 +58,8 @@ std::optional<StepReport> Simulation::attempt() {
     begin_threads();
     renumber();
     const BoxColumn opening = opens_box() ? opening_of(state_.box, *settings_.pressure) : BoxColumn{};
-    ProvisionalChanges changes(state_, edges_of_step(), settings_.flow, growth_, settings_.time_step, searches_.rods);
+    ProvisionalChanges changes(state_, edges_of_step(report), settings_.flow, growth_, settings_.time_step,
+                               searches_.rods);
     report.stretch = changes.stretch();
     const auto mobility = mobility_->at(state_.rods, state_.box);
     update_sizes(*mobility);

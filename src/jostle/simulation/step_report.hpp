@@ -31,10 +31,11 @@ struct StepReport {
                                ///< squeezing; a length
     std::array<double, max_walls> wall_force{};  ///< on each wall by its number: sum of its contact forces
     Vec3 fixed_rod_force;                        ///< on all fixed rods together
-    Vec3 stretch{1, 1, 1};  ///< of the box in the step, and of the centres with it: edges after over before
-    Mat3 collision_virial;  ///< sum over contacts of theory, eq. (1.1): V times the collision stress
-    Mat3 spring_virial;     ///< the same of springs (theory, eq. 1.16); 0 where there are none
-    Mat3 torque_virial;     ///< of torques that motions exert (theory, eq. 1.22); 0 where there are none
+    Vec3 stretch{1, 1, 1};       ///< of the box in the step, and of the centres with it: edges after over before
+    bool box_held_back = false;  ///< a bath of pressure would have moved the box by more than a step may
+    Mat3 collision_virial;       ///< sum over contacts of theory, eq. (1.1): V times the collision stress
+    Mat3 spring_virial;          ///< the same of springs (theory, eq. 1.16); 0 where there are none
+    Mat3 torque_virial;          ///< of torques that motions exert (theory, eq. 1.22); 0 where there are none
     /// The collision stress in other conventions, if asked for: the sums over contacts of (r_j - r_i) F, centre of mass
     /// to centre of mass, and of (r_j + a_j - r_i - a_i) F, from centre line to centre line.
     Mat3 centre_of_mass_virial, centre_line_virial;
