@@ -106,19 +106,19 @@ TEST_CASE("the strain of one step: of all edges alike, or of each by its own for
     state.box = Box{{2, 3, 4}};
     state.rods.push_back(0, {1, 1, 1}, {1, 0, 0}, 0.0, 1.0);
     const StepContext context = {1, 7, 0.01};
-    CHECK(edges_under_pressure(state, all, 1.0, context) == Vec3{2, 3, 4});
+    CHECK(edges_under_pressure(state, state.rods.size(), all, 1.0, context) == Vec3{2, 3, 4});
     // Noise alone, of a kT too small to be seen in the forces.
     state.box_force = Vec3{30, 60, 90};
     const double kT = 1e-40;
-    const Vec3 alike = edges_under_pressure(state, all, kT, context);
+    const Vec3 alike = edges_under_pressure(state, state.rods.size(), all, kT, context);
     const double strain = 0.1 * 0.01 * (60.0 - 0.5 * 24.0);
     for (int k = 0; k < 3; ++k) CHECK(alike[k] == doctest::Approx((2.0 + k) * std::exp(strain / 3.0)).epsilon(1e-14));
-    const Vec3 own = edges_under_pressure(state, each, kT, context);
+    const Vec3 own = edges_under_pressure(state, state.rods.size(), each, kT, context);
     for (int k = 0; k < 3; ++k)
         CHECK(own[k] == doctest::Approx((2.0 + k) * std::exp(0.001 * (30.0 * (k + 1) - 12.0))).epsilon(1e-14));
-    const Vec3 noisy = edges_under_pressure(state, all, 1.0, context);
+    const Vec3 noisy = edges_under_pressure(state, state.rods.size(), all, 1.0, context);
     CHECK(noisy.x / 2.0 == doctest::Approx(noisy.y / 3.0).epsilon(1e-14));
-    CHECK(noisy != edges_under_pressure(state, all, 1.0, {1, 8, 0.01}));
+    CHECK(noisy != edges_under_pressure(state, state.rods.size(), all, 1.0, {1, 8, 0.01}));
 }
 
 TEST_CASE("a piston goes by its force less its load, of the last step or of the same") {
@@ -128,12 +128,12 @@ TEST_CASE("a piston goes by its force less its load, of the last step or of the 
     state.box = Box{{2, 3, 4}, {true, true, false}, {{false, false, true}}};
     const StepContext context = {1, 7, 0.01};
     state.box_force = Vec3{0, 0, 5};
-    const Vec3 moved = edges_under_pressure(state, control, 1e-40, context);
+    const Vec3 moved = edges_under_pressure(state, state.rods.size(), control, 1e-40, context);
     CHECK(moved.x == 2.0);
     CHECK(moved.y == 3.0);
     CHECK(moved.z == doctest::Approx(4.0 + 0.1 * (5.0 - 0.5 * 6.0) * 0.01).epsilon(1e-14));
     // Without thermal motion at its full speed, and a force of the load stops it within the step.
-    const Vec3 pressed = edges_under_pressure(state, control, 0.0, context);
+    const Vec3 pressed = edges_under_pressure(state, state.rods.size(), control, 0.0, context);
     CHECK(pressed.z == doctest::Approx(4.0 - 0.01 * 2.0).epsilon(1e-14));
     const BoxColumn opening = opening_of(state.box, control);
     CHECK(opening.plane == fixed_body(5));
