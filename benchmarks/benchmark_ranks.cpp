@@ -39,7 +39,7 @@ public:
         }
         exchange_->begin();
     }
-    void end() override {
+    void wait() override {
         exchange_->end();
         for (std::size_t p = 0; p < peers_.size(); ++p) {
             const auto arrived = exchange_->in(p);

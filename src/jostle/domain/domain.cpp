@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -148,7 +147,6 @@ void Domain::bring_home(Rods& rods, const Box& box) {
 
 void Domain::fetch_ghosts(Rods& rods, const Box& box, double range, std::span<const Wanted> wanted) {
     if (!is_shared()) return;
-    const std::set<Wanted> in_any_case(wanted.begin(), wanted.end());
     const Carries carries = carried_by_any(ranks_, rods);
     Bounds own;
     std::vector<Bounds> bounds(owned_);
@@ -156,16 +154,16 @@ void Domain::fetch_ghosts(Rods& rods, const Box& box, double range, std::span<co
     const std::vector<Bounds> of_rank = ranks_.gather(own);
     std::vector<std::vector<CarriedRod>> to(of_rank.size());
     std::vector<std::vector<std::uint32_t>> sent(of_rank.size());
+    for (const Wanted& rod : wanted) sent[static_cast<std::size_t>(rod.rank)].push_back(rod.row);
     for (std::size_t q = 0; q < of_rank.size(); ++q) {
         if (q == static_cast<std::size_t>(ranks_.rank()) || owned_ == 0) continue;
-        const bool any_near = are_near(own, of_rank[q], range, box);
-        if (!any_near && in_any_case.empty()) continue;
-        for (std::uint32_t row = 0; row < owned_; ++row) {
-            const bool is_near = any_near && are_near(bounds[row], of_rank[q], range, box);
-            if (!is_near && !in_any_case.contains({row, static_cast<int>(q)})) continue;
-            sent[q].push_back(row);
-            to[q].push_back(carried(rods, row));
-        }
+        std::vector<std::uint32_t>& rows = sent[q];
+        if (are_near(own, of_rank[q], range, box))
+            for (std::uint32_t row = 0; row < owned_; ++row)
+                if (are_near(bounds[row], of_rank[q], range, box)) rows.push_back(row);
+        std::sort(rows.begin(), rows.end());
+        rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+        for (const std::uint32_t row : rows) to[q].push_back(carried(rods, row));
     }
     const auto arrived = ranks_.deal(to);
     std::vector<std::uint32_t> from;

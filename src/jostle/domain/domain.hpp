@@ -50,7 +50,6 @@ public:
     struct Wanted {
         std::uint32_t row;
         int rank;
-        auto operator<=>(const Wanted&) const = default;
     };
 
     /// Then brings ghosts: all rods whose surfaces may be nearer than `range` to one of this rank's, and those wanted.

@@ -4,7 +4,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "jostle/error/input_error.hpp"
 #include "jostle/measurement/summary.hpp"
+#include "jostle/scene/scene_motion.hpp"
 #include "jostle/scene/schedule.hpp"
 #include "jostle/setup/free_clocks.hpp"
 #include "jostle/setup/largest_overlap.hpp"
@@ -35,6 +37,14 @@ Measurement::Measurement(const Scene& scene, const Simulation& simulation, StepS
       begin_(series_.rows() > 0 ? 0.0 : simulation.clock().time - sums_.steps * simulation.settings().time_step),
       length_(scene_, simulation.settings().time_step, free_clocks(scene_, simulation), begin_),
       frame_steps_(scene_, simulation.settings().time_step, static_cast<double>(simulation.rods().size())) {}
+
+void Measurement::share(const Ranks& ranks) {
+    if (!ranks.alone() && swims(scene_) && grows(scene_))
+        throw InputError({.key = "growth",
+                          .problem = "swimmers that grow are not ready for several ranks",
+                          .suggestion = "Run it on one"});
+    sums_.share(ranks);
+}
 
 Due Measurement::add(const StepReport& report, const Simulation& simulation) {
     if (report.status != LcpStatus::converged) throw std::logic_error("a step that was not made cannot be measured");

@@ -36,9 +36,10 @@ public:
     /// Without these, it knows of the rows to come only.
     Measurement(const Scene& scene, const Simulation& simulation, StepSums sums, SeriesTable earlier_rows = {});
 
-    /// To be told before the simulation is shared between ranks, which then all measure together. Fields, and what is
-    /// not ready for ranks otherwise (Simulation::share), they cannot; `is_complete` and `summary` are for rank 0.
-    void share(const Ranks& ranks) { sums_.share(ranks); }
+    /// To be told before the simulation is shared between ranks, which then all measure together; fields,
+    /// `is_complete` and `summary` are for rank 0. Errors: InputError for swimmers that grow, as their paths are
+    /// remembered by ids that all ranks know from the beginning.
+    void share(const Ranks& ranks);
 
     /// Takes in a step that `simulation` has just made. Throws std::logic_error if its contacts were not resolved.
     Due add(const StepReport& report, const Simulation& simulation);
