@@ -12,6 +12,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "jostle/parallel/launched_ranks.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/scene_file/same_scene.hpp"
 #include "jostle/setup/assemble.hpp"
@@ -26,7 +27,8 @@ const char* const usage =
     "Measures every combination; without --state all states, without --count 2000 and 20000, without --threads 1.\n"
     "--run: goes on from the checkpoint of that run, and writes nothing there; without --state no other is measured.\n"
     "Times are means over the steps; median_step_ns is the median. --steps: 0 (default) as many as take about a "
-    "second, at least 16.\n";
+    "second, at least 16; 16 of ranks.\n"
+    "Started by mpirun its processes share the bodies; the first one prints its own times.\n";
 
 struct Options {
     std::vector<std::string> states, runs;
@@ -105,22 +107,26 @@ std::unique_ptr<Simulation> of_run(const std::string& folder) {
 }
 
 void measure(const std::string& state, const std::function<std::unique_ptr<Simulation>()>& prepared,
-             const std::vector<int>& threads, std::uint64_t steps) {
+             const std::vector<int>& threads, std::uint64_t steps, const Ranks& ranks) {
     const double bytes_before = resident_bytes();
     parallel::set_thread_count(1);
     const auto simulation = prepared();
+    const auto rods = static_cast<double>(simulation->rods().size());  // of cells, those there are at first
+    if (!ranks.alone()) simulation->share(ranks);
     parallel::set_thread_count(*std::max_element(threads.begin(), threads.end()));
     double once = 0.0;
     for (int k = 0; k < 20; ++k) once = seconds_of(checked_step(*simulation));
-    const auto rods = static_cast<double>(simulation->rods().size());  // of cells, those there are at first
     for (const int thread_count : threads) {
         parallel::set_thread_count(thread_count);
-        const std::uint64_t wanted =
-            steps > 0 ? steps : std::clamp<std::uint64_t>(static_cast<std::uint64_t>(1.0 / once), 16, 2000);
+        const std::uint64_t in_a_second =  // all ranks agree on it
+            ranks.alone() ? std::clamp<std::uint64_t>(static_cast<std::uint64_t>(1.0 / once), 16, 2000) : 16;
+        const std::uint64_t wanted = steps > 0 ? steps : in_a_second;
         std::vector<StepReport> reports;
+        const double waited_before = ranks.seconds_waited();
         const std::clock_t processors_before = std::clock();
         for (std::uint64_t k = 0; k < wanted; ++k) reports.push_back(checked_step(*simulation));
         const double used = static_cast<double>(std::clock() - processors_before) / CLOCKS_PER_SEC;
+        const double waited = ranks.seconds_waited();
         // Means over steps: building the neighbour list, every tenth step or so, is a part of the cost.
         std::array<double, step_phase_count> phase{};
         double contacts = 0.0, active = 0.0, iterations = 0.0, solves = 0.0;
@@ -138,12 +144,14 @@ void measure(const std::string& state, const std::function<std::unique_ptr<Simul
         for (const double seconds : whole) wall += seconds;
         double mean = 0.0;
         for (double& value : phase) mean += (value *= 1e9 / (total * rods));
-        fmt::print("{},{},{},{}", state, simulation->rods().size(), thread_count, wanted);
+        if (ranks.rank() > 0) continue;
+        fmt::print("{},{},{},{},{}", state, rods, ranks.count(), thread_count, wanted);
         for (const double value : phase) fmt::print(",{:.1f}", value);
         fmt::print(",{:.1f},{:.1f},{:.4f},{:.4f},{:.1f},{:.2f},", mean, 1e9 * median(whole) / rods,
                    contacts / (total * rods), active / (total * rods), iterations / total, solves / total);
         if (rods >= 1e5) fmt::print("{:.0f}", (resident_bytes() - bytes_before) / rods);  // else the settling shows
-        fmt::print(",{:.3f}\n", std::max(0.0, 1.0 - used / (thread_count * wall)));
+        fmt::print(",{:.3f},{:.3f}\n", std::max(0.0, 1.0 - used / (thread_count * wall)),
+                   (waited - waited_before) / wall);
         std::fflush(stdout);
     }
 }
@@ -152,16 +160,23 @@ void measure(const std::string& state, const std::function<std::unique_ptr<Simul
 
 int main(int count, char** words) try {
     const Options options = read_options(count, words);
-    fmt::print("state,bodies,threads,steps");
-    for (const char* phase : step_phase_names) fmt::print(",{}_ns", phase);
-    fmt::print(",step_ns,median_step_ns,contacts_per_body,active_per_body,iterations,solves,bytes_per_body,waiting\n");
+    const std::optional<LaunchedRanks> launched =
+        launch_in_environment().is_of_several() ? std::optional<LaunchedRanks>(std::in_place) : std::nullopt;
+    const Ranks ranks = launched ? launched->ranks() : Ranks();
+    if (ranks.rank() == 0) {
+        fmt::print("state,bodies,ranks,threads,steps");
+        for (const char* phase : step_phase_names) fmt::print(",{}_ns", phase);
+        fmt::print(
+            ",step_ns,median_step_ns,contacts_per_body,active_per_body,iterations,solves,bytes_per_body,waiting,"
+            "waiting_for_ranks\n");
+    }
     for (const std::string& state : options.states)
         for (const std::uint64_t bodies : options.counts)
             measure(
-                state, [&] { return settled(crowd_named(state), bodies); }, options.threads, options.steps);
+                state, [&] { return settled(crowd_named(state), bodies); }, options.threads, options.steps, ranks);
     for (const std::string& run : options.runs)
         measure(
-            run, [&] { return of_run(run); }, options.threads, options.steps);
+            run, [&] { return of_run(run); }, options.threads, options.steps, ranks);
     return 0;
 } catch (const std::exception& error) {
     fmt::print(stderr, "benchmark_step: {}\n{}", error.what(), usage);

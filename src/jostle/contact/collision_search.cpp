@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "jostle/contact/own_image.hpp"
 #include "jostle/contact/segment_separation.hpp"
@@ -72,10 +74,21 @@ JOSTLE_VECTORISED void find_bounds(std::size_t count, Batch& batch) {
     }
 }
 
-/// By how much two rods' farthest displacements exceed the slack of the pair.
-JOSTLE_VECTORISED void displacements_less_slack(std::size_t count, const std::uint32_t* i, const std::uint32_t* j,
-                                                const float* slack, const float* farthest, float* excess) {
-    for (std::size_t k = 0; k < count; ++k) excess[k] = farthest[i[k]] + farthest[j[k]] - slack[k];
+/// What is left of the gaps of pairs whose rods have gone so far, rounding apart.
+JOSTLE_VECTORISED void take_off_changes(std::size_t count, const std::uint32_t* i, const std::uint32_t* j,
+                                        const float* change, float* left) {
+    for (std::size_t k = 0; k < count; ++k) left[k] = left[k] * (1.0F - 1e-6F) - (change[i[k]] + change[j[k]]);
+}
+
+/// How far forces take any point of a rod beyond where they took it at the last search, at most. Of two rotations the
+/// ends of a rod lie no farther apart than the angles, as vectors.
+float change_between(const Displacement& a, const Displacement& b) {
+    const auto distance = [](const std::array<float, 3>& p, const std::array<float, 3>& q) {
+        const float x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
+        return std::sqrt(x * x + y * y + z * z);
+    };
+    const float change = distance(a.centre, b.centre) + distance(a.end, b.end);
+    return change > 0.0F ? change + 1e-6F * (a.farthest + b.farthest) : 0.0F;
 }
 
 double interaction_range(const StepGeometry& step, std::size_t row) {
@@ -111,6 +124,13 @@ double CollisionSearch::find(const StepGeometry& step, Contacts& contacts) {
     contacts.append(shares_.size(), [&](std::size_t share) -> const Contacts& { return shares_[share].contacts; });
     first_count_ = contacts.size();
     activated_.clear();
+    displacement_.resize(rods.size());
+    change_.resize(rods.size());
+    for (const std::uint32_t row : std::exchange(displaced_rows_, {})) {
+        if (row >= rods.size()) continue;
+        displacement_[row] = {};
+        change_[row] = 0.0F;
+    }
     double overlap = 0.0;
     for (const Found& share : shares_) overlap = std::max(overlap, share.overlap);
     return overlap;
@@ -234,8 +254,8 @@ bool CollisionSearch::is_contact(const PairKey& key, const Contacts& contacts) c
     return low < first_count_ && pair_at(low) == listed;
 }
 
-/// Whether displacements could use up the slack of an inactive pair along the normal of its slab.
-bool CollisionSearch::may_meet(const InactivePairs& pairs, std::size_t k) const {
+/// By how much the slab of an inactive pair stays empty where forces take the rods, at least.
+float CollisionSearch::width_of_slab(const InactivePairs& pairs, std::size_t k) const {
     const Displacement &i = displacement_[pairs.i[k]], &j = displacement_[pairs.j[k]];
     const float farthest = i.farthest + j.farthest;
     const auto along = [&normal = pairs.slab[k].normal](const std::array<float, 3>& a) {
@@ -244,62 +264,56 @@ bool CollisionSearch::may_meet(const InactivePairs& pairs, std::size_t k) const 
     };
     const float width =
         pairs.slack[k] + along(j.centre) - along(i.centre) - std::fabs(along(i.end)) - std::fabs(along(j.end));
-    return width < i.inaccuracy + j.inaccuracy + 2.0F * normal_unit * farthest;
+    return width - (i.inaccuracy + j.inaccuracy + 2.0F * normal_unit * farthest);
 }
 
-/// Calls search(block, pair) for the inactive pairs of a block that displacements may bring together.
-template <class Search>
-void CollisionSearch::search_inactive(std::size_t block, Search&& search) const {
+/// Calls gap_at_end(i, pair) for the inactive pairs of a block that forces may have brought together since the last
+/// search, and keeps what it returns.
+template <class GapAtEnd>
+void CollisionSearch::search_inactive(std::size_t block, GapAtEnd&& gap_at_end) {
     const auto [share, begin, end] = in_block_[block];
-    const InactivePairs& pairs = shares_[share].inactive;
-    // Most have more slack than any displacement: those are passed over by this alone.
-    std::array<float, NeighbourList::block_size> excess;
-    displacements_less_slack(end - begin, pairs.i.data() + begin, pairs.j.data() + begin, pairs.slack.data() + begin,
-                             farthest_.data(), excess.data());
-    for (std::size_t k = begin; k < end; ++k)
-        if (excess[k - begin] > 0.0F && may_meet(pairs, k)) search(pairs.i[k], pairs.slab[k].in_block);
-}
-
-/// Whether a pair that is no contact touches at the end of the step.
-bool CollisionSearch::is_violated(const PairKey& key, const StepGeometry& step, const Contacts& contacts,
-                                  const EndConfiguration& end) const {
-    return pair_overlaps(end.pair(step.box, key)) && !is_contact(key, contacts);
+    InactivePairs& pairs = shares_[share].inactive;
+    // Most have more left than any displacement since: those are passed over by this alone.
+    take_off_changes(end - begin, pairs.i.data() + begin, pairs.j.data() + begin, change_.data(),
+                     pairs.left.data() + begin);
+    for (std::size_t k = begin; k < end; ++k) {
+        if (pairs.left[k] > 0.0F) continue;
+        pairs.left[k] = width_of_slab(pairs, k);
+        if (pairs.left[k] <= 0.0F) pairs.left[k] = gap_at_end(pairs.i[k], pairs.slab[k].in_block);
+    }
 }
 
 /// By rows, where pairs look for them: 0 for rods without contacts.
-void CollisionSearch::take_displacements(std::size_t rods, const EndConfiguration& end) {
-    if (displacement_.size() != rods) {
-        displacement_.assign(rods, {});
-        farthest_.assign(rods, 0.0F);
-        displaced_rows_.clear();
-    }
-    for (const std::uint32_t row : displaced_rows_) {
-        displacement_[row] = {};
-        farthest_[row] = 0.0F;
-    }
+void CollisionSearch::take_displacements(const EndConfiguration& end) {
     displaced_rows_.assign(end.rows.begin(), end.rows.end());
     parallel_for(end.rows.size(), [&](std::size_t k) {
-        displacement_[end.rows[k]] = end.displacement[k];
-        farthest_[end.rows[k]] = end.displacement[k].farthest;
+        Displacement& displacement = displacement_[end.rows[k]];
+        change_[end.rows[k]] = change_between(displacement, end.displacement[k]);
+        displacement = end.displacement[k];
     });
 }
 
 std::vector<PairKey> CollisionSearch::violated_pairs(const StepGeometry& step, const Contacts& contacts,
                                                      const EndConfiguration& end, bool thorough) {
-    take_displacements(step.rods.size(), end);
+    take_displacements(end);
     // Whether a pair is near enough to be among the inactive does not depend on the history of the list if neither rod
     // is displaced beyond the limit; the others wait for the thorough search.
     const double limit = step.ranges.displacement_limit;
-    const auto within_limit = [&](std::uint32_t row) { return farthest_[row] <= limit; };
+    const auto within_limit = [&](std::uint32_t row) { return displacement_[row].farthest <= limit; };
     std::vector<std::vector<PairKey>> found(in_block_.size());
-    const auto search = [&](std::size_t block, const PairKey& key) {
-        if (!thorough && !(within_limit(key.i) && within_limit(key.j))) return;
-        if (is_violated(key, step, contacts, end)) found[block].push_back(key);
+    constexpr float settled = std::numeric_limits<float>::infinity();  // a contact from now on
+    const auto gap_at_end = [&](std::size_t block, const PairKey& key) {
+        if (!thorough && !(within_limit(key.i) && within_limit(key.j))) return 0.0F;
+        const PairGeometry pair = end.pair(step.box, key);
+        const double gap = pair_gap(pair);
+        if (gap >= 0.0) return static_cast<float>(gap - 1e-6 * pair.radii);
+        if (!is_contact(key, contacts)) found[block].push_back(key);
+        return settled;
     };
     if (!neighbours_.built_while_widened()) {
         parallel_for_parts(in_block_.size(), [&](std::size_t block) {
             search_inactive(block, [&](std::uint32_t i, std::size_t in_block) {
-                search(block, key_of(block, i, in_block, step.rods));
+                return gap_at_end(block, key_of(block, i, in_block, step.rods));
             });
         });
     }
@@ -307,7 +321,7 @@ std::vector<PairKey> CollisionSearch::violated_pairs(const StepGeometry& step, c
     std::vector<NeighbourList::BeyondRange> farther;
     if (thorough) {
         for (const std::uint32_t row : end.rows)
-            if (!within_limit(row)) farther.push_back({row, farthest_[row] - limit});
+            if (!within_limit(row)) farther.push_back({row, displacement_[row].farthest - limit});
     }
     if (!farther.empty()) neighbours_.widen(step.rods, step.box, interaction_range_, farther);
     const bool are_many = step.rods.size() < rods_per_one_beyond * farther.size();
@@ -317,7 +331,7 @@ std::vector<PairKey> CollisionSearch::violated_pairs(const StepGeometry& step, c
     parallel_for_parts(parts, [&](std::size_t part) {
         const auto look = [&](std::uint32_t i, std::size_t pair) {
             if (neighbours_.is_newly_close(i, pair))
-                search(part, in_order_of_ids(neighbours_.key(i, pair), step.rods.id));
+                gap_at_end(part, in_order_of_ids(neighbours_.key(i, pair), step.rods.id));
         };
         if (in_blocks)
             neighbours_.for_close_pairs(part, look);

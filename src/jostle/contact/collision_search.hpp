@@ -94,7 +94,8 @@ private:
     /// Inactive pairs, of which there are several a rod: what all are asked, side by side, for vector instructions.
     struct InactivePairs {
         std::vector<std::uint32_t> i, j;  ///< rows, i the smaller one: that which the neighbour list names
-        std::vector<float> slack;         ///< width of the slab: the gap is as wide, at least
+        std::vector<float> slack;         ///< width of the slab: the gap after the known motion is as wide, at least
+        std::vector<float> left;          ///< the gap at the last search for violated pairs is as wide, at least
         std::vector<Slab> slab;
 
         std::size_t size() const { return slack.size(); }
@@ -102,12 +103,14 @@ private:
             i.clear();
             j.clear();
             slack.clear();
+            left.clear();
             slab.clear();
         }
         void push_back(std::uint32_t row_i, std::uint32_t row_j, float width, const Slab& new_slab) {
             i.push_back(row_i);
             j.push_back(row_j);
             slack.push_back(width);
+            left.push_back(width);
             slab.push_back(new_slab);
         }
     };
@@ -127,29 +130,27 @@ private:
     PairKey key_of(std::size_t block, std::uint32_t i, std::size_t in_block, const Rods& rods) const {
         return in_order_of_ids(neighbours_.key(i, pair_number(block, in_block)), rods.id);
     }
-    void take_displacements(std::size_t rods, const EndConfiguration& end);
+    void take_displacements(const EndConfiguration& end);
     void search_blocks(const StepGeometry& step);
     void search_block(std::size_t block, const StepGeometry& step, Found& found);
     void narrow_phase(std::uint32_t row, const PairKey& key, std::uint16_t in_block, const StepGeometry& step,
                       Found& found) const;
     void append(const PairKey& key, const PairGeometry& before, const NearestPoints& nearest, const PairGeometry& after,
                 const StepGeometry& step, Contacts& contacts) const;
-    bool may_meet(const InactivePairs& pairs, std::size_t k) const;
-    template <class Search>
-    void search_inactive(std::size_t block, Search&& search) const;
+    float width_of_slab(const InactivePairs& pairs, std::size_t k) const;
+    template <class GapAtEnd>
+    void search_inactive(std::size_t block, GapAtEnd&& gap_at_end);
     bool is_contact(const PairKey& key, const Contacts& contacts) const;
-    bool is_violated(const PairKey& key, const StepGeometry& step, const Contacts& contacts,
-                     const EndConfiguration& end) const;
 
     NeighbourList neighbours_{0.0};
-    std::vector<double> interaction_range_;      ///< (N) displacement + displacement limit
-    double largest_range_ = 0.0;                 ///< of these, at the last `is_covered`
-    std::vector<RodBounds> bounds_;              ///< (N)
-    std::vector<Found> shares_;                  ///< (threads), in the order of their blocks
-    std::vector<InBlock> in_block_;              ///< (blocks)
-    std::vector<Displacement> displacement_;     ///< (N) by forces, at the last search for violated pairs
-    std::vector<float> farthest_;                ///< (N) of these, in few bytes
-    std::vector<std::uint32_t> displaced_rows_;  ///< whose displacements are not 0
+    std::vector<double> interaction_range_;   ///< (N) displacement + displacement limit
+    double largest_range_ = 0.0;              ///< of these, at the last `is_covered`
+    std::vector<RodBounds> bounds_;           ///< (N)
+    std::vector<Found> shares_;               ///< (threads), in the order of their blocks
+    std::vector<InBlock> in_block_;           ///< (blocks)
+    std::vector<Displacement> displacement_;  ///< (N) by forces, at the last search for violated pairs
+    std::vector<float> change_;  ///< (N) how far any point of the rod went since the search before, at most
+    std::vector<std::uint32_t> displaced_rows_;  ///< whose displacements are not 0; of a step there are only ever more
     std::size_t first_count_ = 0;                ///< contacts before any were activated
     std::vector<PairKey> activated_;             ///< pairs of this step by rows, ascending
 };
