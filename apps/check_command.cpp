@@ -23,6 +23,7 @@
 #include "jostle/scene_file/scene_writer.hpp"
 #include "jostle/setup/assemble.hpp"
 #include "jostle/setup/free_clocks.hpp"
+#include "jostle/setup/lattice.hpp"
 #include "jostle/setup/start.hpp"
 
 using namespace jostle;

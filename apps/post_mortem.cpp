@@ -43,6 +43,7 @@ Json worst_contacts(const Simulation& simulation, Rank&& rank) {
 }  // namespace
 
 std::string advice(const StepReport& report, const Scene& scene, const Simulation& simulation) {
+    if (report.lacking_edge > 0.0) return "";
     const double filled = total_volume(simulation.rods(), simulation.box().dimensions()) / simulation.box().volume();
     if (grows(scene) && simulation.box().is_periodic() && filled > crowded(dimensions_of(scene)))
         return fmt::format(

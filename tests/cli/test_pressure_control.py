@@ -5,7 +5,7 @@ import signal
 
 import pytest
 
-from jostle_command import (DONE, RODS, STOPPED, changed, column, command, finish, kill, require_one_line, require_refused, require_same_results, rows_of,
+from jostle_command import (DONE, NUMERICS, RODS, STOPPED, changed, column, command, finish, kill, require_one_line, require_refused, require_same_results, rows_of,
                             start, stop_and_kill, wait_until, with_steps, write_scene)
 
 PRESSED = changed(RODS, pressure={"external": 0.8})
@@ -96,3 +96,12 @@ def test_what_does_not_go_together(tmp_path, scene, told):
     for name in ("check", "run"):
         require_one_line(command(tmp_path, name, "scene.toml"), told)
     assert not (tmp_path / "scene.run").exists()
+
+
+def test_a_box_that_becomes_too_thin_for_its_rods_ends_the_run(tmp_path):
+    """A bath of high pressure presses the thin edge down to where a step turns rods farther than their own images let them."""
+    scene = changed(RODS, box={"volume_fraction": None, "edges": [9.0, 9.0, 1.06]}, rods={"count": 12, "length": 2.0, "start": "aligned"},
+                    pressure={"external": 20.0, "coupling": "orthogonal"})
+    write_scene(tmp_path, with_steps(scene, 500))
+    failed = command(tmp_path, "run", "scene.toml")
+    assert failed.returncode == NUMERICS and "an edge of the box has become" in failed.stderr

@@ -12,7 +12,8 @@ from jostle_command import (BAD_INPUT, DONE, RODS, changed, command, finish, req
 # Copies slide by more than a whole edge: a jump of the offset is among the steps.
 SHEARED = changed(RODS, box={"volume_fraction": None, "edges": [7.0, 7.0, 5.0]}, flow={"shear_rate": 0.75})
 OSCILLATING = changed(SHEARED, flow={"shear_rate": None, "strain_amplitude": 0.6, "frequency": 0.25, "start_strain": 0.3})
-SCENES = {"steady": SHEARED, "oscillating": OSCILLATING, "back": changed(SHEARED, flow={"shear_rate": -0.75})}
+FIELDS = changed(SHEARED, output={"field_every": 10, "field_spacing": 1.0})
+SCENES = {"steady": SHEARED, "oscillating": OSCILLATING, "back": changed(SHEARED, flow={"shear_rate": -0.75}), "fields": FIELDS}
 
 # What is refused, with the key that the message names and some of its words.
 REFUSED = [
@@ -31,7 +32,6 @@ REFUSED = [
     (changed(SHEARED, forces={"on_rods": [1.0, 0.0, 0.0], "drift": True}), "flow.shear_rate", "forces.on_rods"),
     (changed(SHEARED, forces={"alignment_energy": 1.0}), "flow.shear_rate", "alignment_energy"),
     (changed(SHEARED, schedule={"edges": [[1.0, [7.0, 7.0, 4.9]]]}), "schedule.edges", "shears it"),
-    (changed(SHEARED, output={"field_every": 10}), "output.field_every", "shears it"),
     (changed(SHEARED, box={"edges": [7.0, 5.9, 6.0]}), "box.edges", "edge y 5.9 long"),
     (changed(SHEARED, box={"edges": [5.9, 7.0, 6.0]}), "box.edges", "at least 6"),
     (changed(SHEARED, flow={"shear_rate": 6.0}), "flow.shear_rate", "a step of at most"),

@@ -17,7 +17,8 @@ SWIMMERS = changed(CAVITY, motion={"self_propulsion": 2.0})
 CELLS = {"seed": 3, "box": {"edges": [6.0, 6.0, 9.0], "periodic": [False, False, False]}, "walls": {"container": "tube", "axis": "z"},
          "rods": {"count": 6, "length": 1.0}, "motion": {"brownian": False}, "growth": {"rate": 0.5, "division_length": 3.0},
          "time": {"step": 0.01, "production": 4.0}, "output": {"series_every": 10, "trajectory_every": 50}}
-SCENES = {"slit": SLIT, "cavity": CAVITY, "tube": TUBE, "swimmers": SWIMMERS, "cells": CELLS}
+SCENES = {"slit": SLIT, "cavity": CAVITY, "tube": TUBE, "swimmers": SWIMMERS, "cells": CELLS,
+          "rows in a cavity": changed(CAVITY, rods={"start": "lattice"})}
 
 # What is refused, with the key that the message names and some of its words.
 REFUSED = [
@@ -27,7 +28,7 @@ REFUSED = [
     (changed(CAVITY, walls={"faces": [True, False, False]}), "walls.faces", "sphere"),
     (changed(CAVITY, box={"shape": [1.0, 1.0, 1.2]}), "box.shape", "round sphere"),
     (changed(TUBE, box={"shape": [2.0, 1.0, 1.1]}), "box.shape", "round tube"),
-    (changed(CAVITY, rods={"start": "lattice"}), "rods.start", "corners"),
+    (changed(CAVITY, box={"volume_fraction": 0.6}, rods={"start": "lattice"}), "rods.start", "of touching rods it holds"),
     (changed(CAVITY, box={"volume_fraction": None, "shape": None, "edges": [2.9, 2.9, 2.9]}, rods={"count": 1}), "rods.length", "1.9"),
     (changed(SLIT, rods={"start": "aligned", "axis": [0.0, 0.0, 1.0], "length": 8.5, "count": 2}), "rods.axis", "along z"),
     (changed(SLIT, box={"edges": [20.0, 20.0, 1.05]}, rods={"count": 10, "length": 0.0}), "box.edges", "a step of at most"),

@@ -81,7 +81,7 @@ void StepSums::add(const StepReport& report) {
     run_max_overlap = std::max(run_max_overlap, report.max_overlap);
 }
 
-void StepSums::stretch(const StepReport& report, const Box& box) {
+void StepSums::stretch(const StepReport& report) {
     const Vec3& by = report.stretch;
     if (by == Vec3{1, 1, 1}) return;
     const double volume = by.x * by.y * by.z;
@@ -90,11 +90,10 @@ void StepSums::stretch(const StepReport& report, const Box& box) {
         *virial = volume * *virial;
     if (torque_virial) *torque_virial = volume * *torque_virial;
     if (active_stress) active_stress->stretch(by);
-    if (field) field->fit(box.edges());
 }
 
 void StepSums::add(const StepReport& report, const Simulation& simulation) {
-    stretch(report, simulation.box());
+    stretch(report);
     add(report);
     if (kT) *kT += simulation.settings().kT;
     if (active_stress) {
@@ -103,7 +102,9 @@ void StepSums::add(const StepReport& report, const Simulation& simulation) {
             if (event.kind == LineageEvent::Kind::birth) divisions.push_back({event.mother, event.id});
         active_stress->divide(simulation.rods(), simulation.box(), divisions);
     }
-    if (field) add_to_field(simulation);
+    if (!field) return;
+    field->fit(simulation.box());
+    add_to_field(simulation);
 }
 
 /// Places are added up in the order of ids, and so by one rank.

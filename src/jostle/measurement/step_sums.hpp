@@ -59,7 +59,7 @@ struct StepSums {
 private:
     void add(const StepReport& report);
     void add_to_field(const Simulation& simulation);
-    void stretch(const StepReport& report, const Box& box);
+    void stretch(const StepReport& report);
 };
 
 /// A checkpoint of the state and the sums; of files it knows nothing yet. Of several ranks it is for rank 0, and all

@@ -92,9 +92,6 @@ void validate_flow(const Scene& scene) {
                fmt::format("[true, true, {}]", periodic[2]),
                "Put planes across z alone (walls.faces); they have no friction, so no wall could drive a flow");
     check_motion_in_flow(scene, key, value);
-    if (scene.output.field_every > 0)
-        refuse("output.field_every", text(static_cast<double>(scene.output.field_every)),
-               fmt::format("divides a box into cells that stay, and {} shears it", key), "", "Remove it, or [flow]");
 }
 
 void validate_sheared_box(const Scene& scene, double rods_volume, double longest) {

@@ -55,9 +55,6 @@ void check_container(const Scene& scene, double rods_volume) {
                fmt::format("leaves no round {}, which touches the faces of the box", word),
                container == Container::sphere ? "three edges alike" : "the two edges across walls.axis alike",
                "The edges are the diameter of the " + word);
-    if (scene.rods.start == StartKind::lattice)
-        refuse("rods.start", "\"lattice\"", fmt::format("fills the corners of the box, beyond the {}", word),
-               "\"random\", \"aligned\" or \"file\"", "");
 }
 
 /// What is left for the centres of ends between walls, direction by direction; infinite where nothing ends the box.

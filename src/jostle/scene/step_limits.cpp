@@ -132,6 +132,21 @@ std::vector<StepLimit> image_limits(const Scene& scene, const Box& box, const Ro
     return {limit};
 }
 
+}  // namespace
+
+double least_edge_between_images(const Rods& rods, const MobilityOperator& mobility, double kT, double time_step) {
+    double least = 0.0;
+    for (std::size_t i = 0; i < rods.size(); ++i) {
+        const double turn = std::sqrt(2.0 * kT * mobility.of_rod(i).rotational * time_step) / largest_turn;
+        const bool sphere = rods.length[i] == 0.0;
+        const double open = rods.length[i] + rods.diameter[i];  // an edge that lets it turn round
+        least = std::max(least, sphere ? open : std::min(open, rods.diameter[i] / std::cos(std::min(turn, 1.5))));
+    }
+    return least;
+}
+
+namespace {
+
 /// How fast the box brings rods together that touch, end to end, or a plane comes towards them, as its schedule has it
 /// at the fastest.
 std::vector<StepLimit> squeeze_limits(const Scene& scene, const Rods& rods) {

@@ -20,6 +20,9 @@ namespace jostle {
 std::vector<StepLimit> step_limits(const Scene& scene, const Mobility& model, const Box& box, const Rods& rods,
                                    std::span<const Spring> springs = {});
 
+/// The shortest edge of a periodic box in which a step of this length lets no rod turn farther than its own images do.
+double least_edge_between_images(const Rods& rods, const MobilityOperator& mobility, double kT, double time_step);
+
 /// Those of motions and growth alone.
 std::vector<StepLimit> free_step_limits(const Scene& scene, const Mobility& model, const Box& box, const Rods& rods);
 

@@ -103,7 +103,12 @@ Simulation assemble(const Scene& scene, State state) {
     settings.kT = present_kT(scene, state.clock, step);
     settings.time_step = step;
     settings.schedule = schedule_of(scene, rods, step);
-    if (scene.pressure.external) settings.pressure = control_of(scene, rods, settings.kT);
+    if (scene.pressure.external) {
+        settings.pressure = control_of(scene, rods, settings.kT);
+        if (settings.kT > 0.0)
+            settings.pressure->least_edge =
+                least_edge_between_images(rods, *model->at(rods, box), settings.kT, settings.time_step);
+    }
     settings.brownian_correction = scene.contact.brownian_correction;
     settings.range = scene.contact.range.value_or(0.0);
     if (scene.contact.model == ContactModel::wca) {

@@ -13,6 +13,7 @@
 #include "jostle/scene/scene_box.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/setup/largest_overlap.hpp"
+#include "jostle/setup/lattice.hpp"
 #include "jostle/setup/scattered_rods.hpp"
 
 namespace jostle {
@@ -42,88 +43,6 @@ Rods at_random(Rods rods, const Box& box, bool turning, const Scene& scene, cons
     }
     rods.image.assign(rods.size(), Image{0, 0, 0});
     return in_order_of_ids(rods);  // annealing has renumbered them
-}
-
-/// Sites along the rods (direction 0) and across (1, 2).
-struct Grid {
-    std::array<std::uint64_t, 3> sites{};
-    double tightness = INFINITY;  ///< the largest of size/spacing over the directions; 1 means touching
-};
-
-/// The grid with at least `count` sites that leaves the most room in its tightest direction; one site along an edge of
-/// infinity, which stands for one that a flat box has not.
-Grid roomiest_grid(std::uint64_t count, const std::array<double, 3>& edges, const std::array<double, 3>& size) {
-    Grid best;
-    const auto most = [&](std::size_t k) {
-        if (std::isinf(edges[k])) return std::uint64_t{1};
-        return static_cast<std::uint64_t>(std::clamp(edges[k] / size[k], 1.0, static_cast<double>(count)));
-    };
-    for (std::uint64_t across = 1; across <= most(1); ++across) {
-        // More than one site for each rod would only be tighter.
-        for (std::uint64_t along = 1; along <= most(0) && (along - 1) * across < count; ++along) {
-            const std::uint64_t rest = (count + across * along - 1) / (across * along);
-            Grid grid{{along, across, rest}, 0.0};
-            for (std::size_t k = 0; k < 3; ++k)
-                grid.tightness = std::max(grid.tightness, static_cast<double>(grid.sites[k]) * size[k] / edges[k]);
-            if (grid.tightness < best.tightness) best = grid;
-        }
-    }
-    return best;
-}
-
-/// How the rods of a scene stand in rows.
-struct Lattice {
-    Vec3 axis;
-    std::array<int, 3> direction{};  ///< of the box: along the rods, then across
-    std::array<double, 3> edges{};   ///< of the box, in these directions
-    std::array<std::uint64_t, 3> sites{};
-};
-
-/// Errors: InputError if they do not fit into the box so.
-Lattice lattice_of(const Scene& scene, const Box& box) {
-    const Vec3 axis = normalised(scene.rods.axis);
-    const int along = std::fabs(axis.x) > 0.5 ? 0 : (std::fabs(axis.y) > 0.5 ? 1 : 2);
-    if (std::fabs(axis[along]) < 1.0 - 1e-12)
-        throw InputError({.key = "rods.axis",
-                          .value = fmt::format("[{}, {}, {}]", axis.x, axis.y, axis.z),
-                          .problem = "a lattice needs its rods along an edge of the box",
-                          .allowed = "[1, 0, 0], [0, 1, 0] or [0, 0, 1]",
-                          .suggestion = "For another direction use start = \"aligned\""});
-    const bool flat = box.dimensions() == 2;
-    Lattice lattice{axis, {along, flat ? 2 : (along + 1) % 3, flat ? 1 - along : (along + 2) % 3}, {}, {}};
-    const double D = scene.rods.diameter;
-    for (std::size_t k = 0; k < 3; ++k)
-        lattice.edges[k] = lattice.direction[k] < box.dimensions() ? box.edges()[lattice.direction[k]] : INFINITY;
-    const Grid grid = roomiest_grid(scene.rods.count, lattice.edges, {scene.rods.length + D, D, D});
-    if (grid.tightness > 1.0)
-        throw InputError(
-            {.key = "rods.start",
-             .value = "\"lattice\"",
-             .problem = fmt::format("{} rods do not fit into the box in rows: the best grid, {} x {} x {}, would "
-                                    "need edges {:.4g} times longer",
-                                    scene.rods.count, grid.sites[0], grid.sites[1], grid.sites[2], grid.tightness),
-             .suggestion = fmt::format("Use a lower {} or another box.shape", fraction_words(scene))});
-    lattice.sites = grid.sites;
-    return lattice;
-}
-
-Rods rods_in_rows(const Scene& scene, const Box& box) {
-    const auto& [axis, direction, edges, in_row] = lattice_of(scene, box);
-    Rods rods;
-    const std::uint64_t sites = in_row[0] * in_row[1] * in_row[2];
-    for (std::uint64_t id = 0; id < scene.rods.count; ++id) {
-        // Vacant sites, if any, lie evenly among the others.
-        const auto site = static_cast<std::uint64_t>(static_cast<double>(id) * static_cast<double>(sites) /
-                                                     static_cast<double>(scene.rods.count));
-        const std::array<std::uint64_t, 3> cell = {site / (in_row[2] * in_row[1]), site / in_row[2] % in_row[1],
-                                                   site % in_row[2]};
-        Vec3 centre;
-        for (std::size_t k = 0; k < 3; ++k)
-            if (std::isfinite(edges[k]))
-                centre[direction[k]] = (static_cast<double>(cell[k]) + 0.5) * edges[k] / static_cast<double>(in_row[k]);
-        rods.push_back(id, centre, axis, scene.rods.length, scene.rods.diameter);
-    }
-    return rods;
 }
 
 /// Where rods of a start come from, as messages say it.
@@ -182,10 +101,6 @@ Rods checked(Rods rods, const Box& box, const Scene& scene) {
 }
 
 }  // namespace
-
-void require_lattice_fits(const Scene& scene, const Box& box) {
-    if (scene.rods.start == StartKind::lattice) lattice_of(scene, box);
-}
 
 std::string start_warning(const Scene& scene, double volume_fraction) {
     const double aspect_ratio = scene.rods.length / scene.rods.diameter,

@@ -14,7 +14,7 @@ namespace jostle {
 /// "random":  centres and axes uniform, drawn anew where rods overlap; what still overlaps after 100 draws (1000 where
 ///            there are few rods) is annealed, all of it: `watch` sees how;
 /// "aligned": centres uniform, all axes along `rods.axis`, pushed apart without turning;
-/// "lattice": rows of rods along `rods.axis` (a direction of the box), evenly spaced;
+/// "lattice": `rods_in_rows`;
 /// "file":    `from_file`, checked for overlaps, and so is "run", up to `contact.overlap_limit`.
 /// Throws InputError where the rods do not fit.
 Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& from_file = std::nullopt,
@@ -23,9 +23,5 @@ Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& f
 /// What a user has to know of the start of a scene whose passive rods are to come to equilibrium, at this volume
 /// fraction: one sentence, or none.
 std::string start_warning(const Scene& scene, double volume_fraction);
-
-/// Whether the rods of a scene with start = "lattice" fit into the box in rows, without making them. Errors:
-/// InputError.
-void require_lattice_fits(const Scene& scene, const Box& box);
 
 }  // namespace jostle

@@ -23,6 +23,13 @@ std::string description(LcpStatus status) {
 }
 
 std::optional<std::string> step_failure(const StepReport& report, const Scene& scene, double thinnest) {
+    if (report.lacking_edge > 0.0)
+        return fmt::format(
+            "an edge of the box has become {:.3g} shorter than rods need to turn between their own images{}",
+            report.lacking_edge,
+            scene.pressure.coupling == StrainCoupling::orthogonal
+                ? ": edges of a fluid wander apart, and coupling = \"isotropic\" keeps their ratio"
+                : "");
     if (report.status != LcpStatus::converged) return description(report.status);
     if (report.max_overlap == 0.0) return std::nullopt;
     const double limit = scene.contact.overlap_limit * thinnest;

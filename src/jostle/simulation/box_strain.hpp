@@ -25,6 +25,7 @@ struct PressureControl {
     double rate = 0.0;      ///< without thermal motion: at which the logarithm of the volume falls, or the plane comes,
                             ///< where nothing resists
     double largest_move = INFINITY;  ///< in a step, by forces: of the logarithm of the volume, or of each edge
+    double least_edge = 0.0;         ///< where edges move: below it rods have no room between their own images
 };
 
 /// The edges at the end of a step.

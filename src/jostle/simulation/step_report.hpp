@@ -33,6 +33,7 @@ struct StepReport {
     Vec3 fixed_rod_force;                        ///< on all fixed rods together
     Vec3 stretch{1, 1, 1};       ///< of the box in the step, and of the centres with it: edges after over before
     bool box_held_back = false;  ///< a bath of pressure would have moved the box by more than a step may
+    double lacking_edge = 0.0;   ///< by so much a bath has made an edge shorter than rods need beside their own images
     Mat3 collision_virial;       ///< sum over contacts of theory, eq. (1.1): V times the collision stress
     Mat3 spring_virial;          ///< the same of springs (theory, eq. 1.16); 0 where there are none
     Mat3 torque_virial;          ///< of torques that motions exert (theory, eq. 1.22); 0 where there are none

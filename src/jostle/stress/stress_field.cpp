@@ -21,21 +21,27 @@ constexpr double max_cells = 1e6;
     refuse("output.field_spacing", fmt::format("{:.6g}", spacing), std::move(problem), std::move(allowed));
 }
 
-/// The two cells along one direction that share a point, and the part of the second.
+/// The two cells along one direction that share a point, in which copy of the box each of them is, and the part of the
+/// second.
 struct Share {
-    std::size_t first, second;
-    double part;
+    std::array<std::size_t, 2> cell{};
+    std::array<double, 2> copy{};
+    double part = 0.0;
 };
 
 Share share_of(double place, double cell_edge, std::size_t cells, bool periodic) {
-    if (cell_edge == 0.0) return {0, 0, 0.0};  // of a flat box
+    if (cell_edge == 0.0) return {};  // of a flat box
     const double place_in_cells = place / cell_edge - 0.5, lower = std::floor(place_in_cells);
     const auto count = static_cast<std::int64_t>(cells), first = static_cast<std::int64_t>(lower);
-    const auto cell = [&](std::int64_t k) {
-        return static_cast<std::size_t>(periodic ? (k % count + count) % count
-                                                 : std::clamp<std::int64_t>(k, 0, count - 1));
-    };
-    return {cell(first), cell(first + 1), place_in_cells - lower};
+    Share share;
+    share.part = place_in_cells - lower;
+    for (const std::int64_t side : {0, 1}) {
+        const std::int64_t cell =
+            periodic ? ((first + side) % count + count) % count : std::clamp<std::int64_t>(first + side, 0, count - 1);
+        share.cell[static_cast<std::size_t>(side)] = static_cast<std::size_t>(cell);
+        if (periodic) share.copy[static_cast<std::size_t>(side)] = static_cast<double>((first + side - cell) / count);
+    }
+    return share;
 }
 
 }  // namespace
@@ -85,9 +91,17 @@ void StressField::spread(const CollisionMoments::Pair& pair) {
     for (int k = 0; k < 3; ++k) {
         if (edges_[k] == 0.0) continue;
         const double half_edge = 0.5 * edges_[k], length = pair.separation[k];
-        const double from = begin[k] / half_edge, to = (begin[k] + length) / half_edge;
-        for (double plane = std::ceil(std::min(from, to)); plane < std::max(from, to); plane += 1.0)
-            breaks_.push_back(std::clamp((plane * half_edge - begin[k]) / length, 0.0, 1.0));
+        const auto break_at_planes = [&](double displaced) {
+            const double start = begin[k] - displaced, from = start / half_edge, to = (start + length) / half_edge;
+            for (double plane = std::ceil(std::min(from, to)); plane < std::max(from, to); plane += 1.0)
+                breaks_.push_back(std::clamp((plane * half_edge - start) / length, 0.0, 1.0));
+        };
+        const bool displaced = k == 0 && box_.offset() != 0.0;
+        const double ends[2] = {begin.y, begin.y + pair.separation.y}, reach = 0.5 * edges_.y;
+        const double lowest = std::floor((std::min(ends[0], ends[1]) - reach) / box_.edges().y);
+        const double highest = std::floor((std::max(ends[0], ends[1]) + reach) / box_.edges().y);
+        if (!displaced) break_at_planes(0.0);
+        for (double copy = lowest; displaced && copy <= highest; copy += 1.0) break_at_planes(copy * box_.offset());
     }
     std::sort(breaks_.begin(), breaks_.end());
     const Mat3 moment = pair.moment();
@@ -102,36 +116,35 @@ void StressField::spread(const CollisionMoments::Pair& pair) {
     }
 }
 
-// Calls add(content, weight) for each of the eight cells around a point.
+// Calls add(content, weight) for each of the eight cells around a point. Copies of the box above are displaced along x
+// where it is sheared.
 template <class Add>
 void StressField::deposit(const Vec3& point, Add&& add) {
-    std::array<Share, 3> share;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const int direction = static_cast<int>(k);
-        const double place = point[direction];
-        if (!box_.periodic()[k] && !(place >= 0.0 && place <= box_.edges()[direction])) {
+    for (int k = 0; k < 3; ++k)
+        if (!box_.periodic()[static_cast<std::size_t>(k)] && !(point[k] >= 0.0 && point[k] <= box_.edges()[k])) {
             add(outside_, 1.0);
             return;
         }
-        share[k] = share_of(place, edges_[direction], cells_[k], box_.periodic()[k]);
-    }
+    const auto share = [&](std::size_t k, double place) {
+        return share_of(place, edges_[static_cast<int>(k)], cells_[k], box_.periodic()[k]);
+    };
+    const auto part_of = [](const Share& one, unsigned side) { return side == 1 ? one.part : 1.0 - one.part; };
+    const Share along_y = share(1, point.y), along_z = share(2, point.z);
+    const std::array<Share, 2> along_x = {share(0, point.x - along_y.copy[0] * box_.offset()),
+                                          share(0, point.x - along_y.copy[1] * box_.offset())};
     for (unsigned corner = 0; corner < 8; ++corner) {
-        double weight = 1.0;
-        std::size_t cell = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const bool second = (corner >> k & 1u) != 0;
-            weight *= second ? share[k].part : 1.0 - share[k].part;
-            cell = cell * cells_[k] + (second ? share[k].second : share[k].first);
-        }
-        add(content_[cell], weight);
+        const unsigned x = corner & 1u, y = corner >> 1 & 1u, z = corner >> 2;
+        const double weight = part_of(along_x[y], x) * part_of(along_y, y) * part_of(along_z, z);
+        add(content_[(along_x[y].cell[x] * cells_[1] + along_y.cell[y]) * cells_[2] + along_z.cell[z]], weight);
     }
 }
 
-void StressField::fit(const Vec3& edges) {
+void StressField::fit(const Box& box) {
     const double before = cell_volume();
-    box_ = Box(edges, box_.periodic());
-    for (int k = 0; k < 3; ++k) edges_[k] = edges[k] / static_cast<double>(cells_[static_cast<std::size_t>(k)]);
+    box_ = box;
+    for (int k = 0; k < 3; ++k) edges_[k] = box.edges()[k] / static_cast<double>(cells_[static_cast<std::size_t>(k)]);
     const double ratio = cell_volume() / before;
+    if (ratio == 1.0) return;
     for (Content& content : content_) content = Content{}.add(ratio, content);
     outside_ = Content{}.add(ratio, outside_);
 }

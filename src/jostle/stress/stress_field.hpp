@@ -27,9 +27,9 @@ public:
     /// One step: its moments, and the rods after it, which turn with the temperature kT.
     void add(const CollisionMoments& moments, const Rods& rods, double kT);
 
-    /// To be told where the box has other edges: as many cells, of other size. What steps before have left in them, per
-    /// volume, stays.
-    void fit(const Vec3& edges);
+    /// To be told the box as it is now, before each step is added where it changes: as many cells, of other size. What
+    /// steps before have left in them, per volume, stays.
+    void fit(const Box& box);
 
     /// Forgets all steps.
     void clear();

@@ -3,8 +3,10 @@
 #include <cmath>
 
 #include "jostle/error/input_error.hpp"
+#include "jostle/rods/wall.hpp"
 #include "jostle/scene/scene_box.hpp"
 #include "jostle/setup/largest_overlap.hpp"
+#include "jostle/setup/lattice.hpp"
 #include "jostle/setup/scattered_rods.hpp"
 #include "jostle/setup/start.hpp"
 #include "jostle/statistics/order_parameter.hpp"
@@ -117,6 +119,39 @@ TEST_CASE("lattice starts fit close to their packing limit, and say so beyond it
     CHECK(largest_overlap(rods, box) <= 1e-12);
     scene.rods.axis = {1, 1, 0};
     CHECK_THROWS_AS(make_start(scene, box), InputError);
+}
+
+// By hand. In a sphere whose centres reach sqrt(3) from the middle: 8 at (1/2, 1/2, 1/2) and 24 at (3/2, 1/2, 1/2),
+// while a grid with a line through the middle has 27. Across a tube whose centres reach to (3/2, 1/2): 4 x 4 without
+// corners.
+TEST_CASE("lattice starts in containers: rods lie inside, as many as the sites of touching rods hold, and no more") {
+    const auto in = [](Container container, const Vec3& edges, bool periodic_along_x) {
+        return Box{edges, {periodic_along_x, false, false}, {{false, false, false}, container, 0}};
+    };
+    const double nook = 2.0 * (std::sqrt(3.0) + 0.5), round = 2.0 * (std::sqrt(2.5) + 0.5);
+    struct Case {
+        Box box;
+        std::uint64_t most;
+        double length;
+    };
+    for (const auto& [box, most, length] : {Case{in(Container::sphere, {nook, nook, nook}, false), 32, 0.0},
+                                            Case{in(Container::tube, {5.0, round, round}, true), 60, 0.0},
+                                            Case{in(Container::tube, {6.0, round, round}, true), 24, 2.0}}) {
+        for (const std::uint64_t count : {std::uint64_t{1}, most / 3, most}) {
+            const Rods rods = make_start(scene_of(count, length, StartKind::lattice), box);
+            CHECK(rods.size() == count);
+            CHECK(largest_overlap(rods, box) <= 1e-8);
+            for (std::size_t i = 0; i < rods.size(); ++i)
+                CHECK(overlap_with_walls(walls_of(box), box.walls(), rods, i) <= 1e-8);
+        }
+        try {
+            make_start(scene_of(most + 1, length, StartKind::lattice), box);
+            FAIL("not refused");
+        } catch (const InputError& error) {
+            CAPTURE(error.what());
+            CHECK(std::string(error.what()).find("it holds " + std::to_string(most)) != std::string::npos);
+        }
+    }
 }
 
 TEST_CASE("a few spheres in a vast lattice are placed at once") {

@@ -147,6 +147,32 @@ TEST_CASE("moved by one cell, the same field one cell further; through a face, t
         CHECK(norm(here.mean(cell).collision - there.mean((cell + 25) % 125).collision) < 1e-14);
 }
 
+// Copies above along y are displaced by two cells, so that a field moved through that face is the same one, two cells
+// back along x there.
+TEST_CASE("in a sheared box: moved through the face that the copies slide along") {
+    const Box box = Box{{5, 4, 3}, {true, true, true}}.sheared(2.0);
+    const Vec3 separation = {1.5, 0.9, -0.7}, force = {1, 2, 3};
+    Rods one, other;
+    one.push_back(0, {4.8, 2.7, 0.2}, {0, 0, 1}, 2.0, 1.0);
+    other.push_back(0, {2.8, 0.7, 0.2}, {0, 0, 1}, 2.0, 1.0);  // two cells up, wrapped
+    for (const Vec3& begin : {Vec3{4.3, 2.8, 0.1}, {0.2, 3.7, 2.9}, {1.0, -0.3, 0.4}}) {
+        StressField here(box, 1.0), there(box, 1.0);
+        for (StressField* each : {&here, &there}) each->fit(box);
+        here.add(one_pair(begin, separation, force), one, 1.0);
+        there.add(one_pair(begin + Vec3{0, 2, 0}, separation, force), other, 1.0);
+        CHECK(norm(total_of(here).collision - outer(separation, force)) < 1e-13);
+        for (std::size_t x = 0; x < 5; ++x)
+            for (std::size_t y = 0; y < 4; ++y)
+                for (std::size_t z = 0; z < 3; ++z) {
+                    const std::size_t back = y + 2 < 4 ? 0 : 2;
+                    const auto before = here.mean((x * 4 + y) * 3 + z);
+                    const auto after = there.mean(((x + 5 - back) % 5 * 4 + (y + 2) % 4) * 3 + z);
+                    CHECK(norm(before.collision - after.collision) < 1e-14);
+                    CHECK(before.number_density == doctest::Approx(after.number_density).epsilon(1e-13));
+                }
+    }
+}
+
 TEST_CASE("through a checkpoint to the bit") {
     std::mt19937_64 generator(42);
     MESSAGE("seed 42");
