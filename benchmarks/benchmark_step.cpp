@@ -118,9 +118,9 @@ void measure(const std::string& state, const std::function<std::unique_ptr<Simul
     for (int k = 0; k < 20; ++k) once = seconds_of(checked_step(*simulation));
     for (const int thread_count : threads) {
         parallel::set_thread_count(thread_count);
-        const std::uint64_t in_a_second =  // all ranks agree on it
+        const std::uint64_t by_default =  // of ranks a fixed number, for all have to make as many
             ranks.alone() ? std::clamp<std::uint64_t>(static_cast<std::uint64_t>(1.0 / once), 16, 2000) : 16;
-        const std::uint64_t wanted = steps > 0 ? steps : in_a_second;
+        const std::uint64_t wanted = steps > 0 ? steps : by_default;
         std::vector<StepReport> reports;
         const double waited_before = ranks.seconds_waited();
         const std::clock_t processors_before = std::clock();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "jostle/contact/own_image.hpp"
 #include "jostle/contact/segment_separation.hpp"
@@ -126,11 +125,12 @@ double CollisionSearch::find(const StepGeometry& step, Contacts& contacts) {
     activated_.clear();
     displacement_.resize(rods.size());
     change_.resize(rods.size());
-    for (const std::uint32_t row : std::exchange(displaced_rows_, {})) {
+    for (const std::uint32_t row : displaced_rows_) {
         if (row >= rods.size()) continue;
         displacement_[row] = {};
         change_[row] = 0.0F;
     }
+    displaced_rows_.clear();
     double overlap = 0.0;
     for (const Found& share : shares_) overlap = std::max(overlap, share.overlap);
     return overlap;

@@ -107,14 +107,20 @@ std::vector<Vec3> sites_of(const std::array<std::vector<double>, 3>& places, con
     return sites;
 }
 
-/// Sites in a box without container: evenly spaced from face to face.
-std::vector<Vec3> sites_between_faces(const Scene& scene, const Box& box, const Directions& directions) {
+/// The grid of a box without container. Errors: InputError if the rods do not fit.
+Grid grid_between_faces(const Scene& scene, const Directions& directions) {
     const Grid grid = roomiest_grid(scene.rods.count, directions.edges, directions.size);
     if (grid.tightness > 1.0)
         refuse_lattice(scene,
                        fmt::format("{} rods do not fit into the box in rows: the best grid, {} x {} x {}, would "
                                    "need edges {:.4g} times longer",
                                    scene.rods.count, grid.sites[0], grid.sites[1], grid.sites[2], grid.tightness));
+    return grid;
+}
+
+/// Its sites: evenly spaced from face to face.
+std::vector<Vec3> sites_between_faces(const Scene& scene, const Box& box, const Directions& directions) {
+    const Grid grid = grid_between_faces(scene, directions);
     std::array<std::vector<double>, 3> places;
     for (std::size_t k = 0; k < 3; ++k)
         places[k] = std::isinf(directions.edges[k]) ? std::vector{0.0} : evenly(grid.sites[k], directions.edges[k]);
@@ -194,7 +200,12 @@ Rods rods_in_rows(const Scene& scene, const Box& box) {
 }
 
 void require_lattice_fits(const Scene& scene, const Box& box) {
-    if (scene.rods.start == StartKind::lattice) lattice_sites(scene, box, directions_of(scene, box));
+    if (scene.rods.start != StartKind::lattice) return;
+    const Directions directions = directions_of(scene, box);
+    if (box.walls().container == Container::none)
+        grid_between_faces(scene, directions);
+    else
+        sites_within_container(scene, box, directions);
 }
 
 }  // namespace jostle

@@ -96,12 +96,15 @@ void StressField::spread(const CollisionMoments::Pair& pair) {
             for (double plane = std::ceil(std::min(from, to)); plane < std::max(from, to); plane += 1.0)
                 breaks_.push_back(std::clamp((plane * half_edge - start) / length, 0.0, 1.0));
         };
-        const bool displaced = k == 0 && box_.offset() != 0.0;
+        if (k != 0 || box_.offset() == 0.0) {
+            break_at_planes(0.0);
+            continue;
+        }
+        // Across x: of all copies, displaced along it, into which the pair reaches.
         const double ends[2] = {begin.y, begin.y + pair.separation.y}, reach = 0.5 * edges_.y;
         const double lowest = std::floor((std::min(ends[0], ends[1]) - reach) / box_.edges().y);
         const double highest = std::floor((std::max(ends[0], ends[1]) + reach) / box_.edges().y);
-        if (!displaced) break_at_planes(0.0);
-        for (double copy = lowest; displaced && copy <= highest; copy += 1.0) break_at_planes(copy * box_.offset());
+        for (double copy = lowest; copy <= highest; copy += 1.0) break_at_planes(copy * box_.offset());
     }
     std::sort(breaks_.begin(), breaks_.end());
     const Mat3 moment = pair.moment();
