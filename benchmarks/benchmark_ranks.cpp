@@ -4,9 +4,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdio>
+#include <initializer_list>
 #include <memory>
+#include <string_view>
 
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/parallel/thread_ranks.hpp"
@@ -138,20 +141,39 @@ void print_row(const Case& now, const Scene& scene, const State& start, int coun
     std::fflush(stdout);
 }
 
-}  // namespace
-
-int main() {
-    parallel::set_thread_count(1);
+void print_heads() {
     fmt::print(
         "| state | ranks | rods a rank | near / own | ghosts / own | contacts worked out | sweeps a step | exchanges a "
         "sweep | messages | KiB | agreements a step |\n");
     fmt::print("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
-    for (const Case& now : {Case{"phi 0.1", 8000, 5.0, 0.1}, Case{"phi 0.4", 8000, 5.0, 0.4},
-                            Case{"parallel rods, phi 0.55", 8000, 5.0, 0.55, StartKind::lattice},
-                            Case{"spheres, phi 0.45", 8000, 0.0, 0.45}, Case{"L/D 20, phi 0.1", 4000, 20.0, 0.1}}) {
-        const Scene scene = scene_of(now);
-        const Box box(box_edges(scene), box_periodic(scene));
-        const State start = {box, make_start(scene, box)};
-        for (const int count : {2, 4, 8}) print_row(now, scene, start, count);
+}
+
+void print_rows(const Case& now, std::initializer_list<int> rank_counts) {
+    const Scene scene = scene_of(now);
+    const Box box(box_edges(scene), box_periodic(scene));
+    const State start = {box, make_start(scene, box)};
+    for (const int count : rank_counts) print_row(now, scene, start, count);
+}
+
+}  // namespace
+
+/// Without a word: the same rods on more and more ranks. With "weak": as many rods a rank, however many.
+int main(int count, char** words) {
+    parallel::set_thread_count(1);
+    print_heads();
+    const bool weak = count > 1 && std::string_view(words[1]) == "weak";
+    const std::array<Case, 3> common{{{"phi 0.1", 8000, 5.0, 0.1},
+                                      {"phi 0.4", 8000, 5.0, 0.4},
+                                      {"parallel rods, phi 0.55", 8000, 5.0, 0.55, StartKind::lattice}}};
+    if (!weak) {
+        for (const Case& now : common) print_rows(now, {2, 4, 8});
+        print_rows({"spheres, phi 0.45", 8000, 0.0, 0.45}, {2, 4, 8});
+        print_rows({"L/D 20, phi 0.1", 4000, 20.0, 0.1}, {2, 4, 8});
+        return 0;
     }
+    for (Case now : common)
+        for (const int ranks : {1, 2, 4, 8}) {
+            now.rods = 2000 * static_cast<std::uint64_t>(ranks);
+            print_rows(now, {ranks});
+        }
 }

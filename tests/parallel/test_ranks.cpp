@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <vector>
@@ -147,6 +148,15 @@ TEST_CASE("dense rods of several lengths and diameters") {
 
 TEST_CASE("dilute rods") {
     check_ranks(crowd(500, 5.0, 0.1), start_of(crowd(500, 5.0, 0.1)), 20, {2, 5});
+}
+
+TEST_CASE("a dense droplet in an empty box: every rank gets its part of the rods") {
+    const Scene scene = crowd(400, 3.0, 0.38);
+    State start = start_of(scene);
+    start.box = Box(4.0 * start.box.edges(), start.box.periodic());
+    check_ranks(scene, start, 12, {2, 5});
+    const Trace moved = trace_of(scene, start, 4, 4, 3);
+    for (const std::size_t owned : moved.owned) CHECK(std::abs(static_cast<double>(owned) - 100.0) <= 5.0);
 }
 
 TEST_CASE("spheres") {

@@ -12,11 +12,17 @@ namespace {
 /// A cut is sought in so many bins, of which the one that holds it is divided anew, so many times.
 constexpr std::size_t bins = 64;
 constexpr int refinements = 3;
-/// Weights are added up as whole numbers of this, so that all ranks find the same cut.
-constexpr double weight_unit = 1.0 / 1024.0;
+/// Weights are added up as whole numbers, so that all ranks find the same cut; the largest of all is this many.
+constexpr double largest_in_units = 1 << 20;
 
-std::int64_t in_units(float weight) {
-    return static_cast<std::int64_t>(std::llround(static_cast<double>(weight) / weight_unit));
+std::vector<std::int64_t> in_units(const Ranks& ranks, std::span<const float> weight) {
+    const double own = weight.empty() ? 0.0 : static_cast<double>(*std::max_element(weight.begin(), weight.end()));
+    const double largest = ranks.largest(own);
+    std::vector<std::int64_t> whole;
+    whole.reserve(weight.size());
+    for (const float one : weight)
+        whole.push_back(largest > 0.0 ? std::llround(static_cast<double>(one) / largest * largest_in_units) : 0);
+    return whole;
 }
 
 }  // namespace
@@ -27,13 +33,13 @@ public:
     Level(std::vector<Part> parts, std::vector<Cut>& cuts) : parts_(std::move(parts)), cuts_(cuts) {}
 
     /// `part_of`: (rods) the number of each rod's part here, or `none` if that is one rank's.
-    void cut(const Ranks& ranks, const Box& box, std::span<const Vec3> centre, std::span<const float> weight,
+    void cut(const Ranks& ranks, const Box& box, std::span<const Vec3> centre, std::span<const std::int64_t> weight,
              std::span<const std::size_t> part_of) {
         choose_directions(ranks, box, centre, part_of);
         below_.assign(parts_.size(), 0);
         all_.assign(parts_.size(), 0);
         for (std::size_t i = 0; i < centre.size(); ++i)
-            if (part_of[i] != none) all_[part_of[i]] += in_units(weight[i]);
+            if (part_of[i] != none) all_[part_of[i]] += weight[i];
         ranks.add_up(all_);
         for (int k = 0; k < refinements; ++k) refine(ranks, centre, weight, part_of);
         for (std::size_t p = 0; p < parts_.size(); ++p) cuts_[parts_[p].cut].place = 0.5 * (low_[p] + high_[p]);
@@ -76,7 +82,7 @@ private:
     }
 
     /// Finds the bin that holds the cut, and makes it the stretch.
-    void refine(const Ranks& ranks, std::span<const Vec3> centre, std::span<const float> weight,
+    void refine(const Ranks& ranks, std::span<const Vec3> centre, std::span<const std::int64_t> weight,
                 std::span<const std::size_t> part_of) {
         std::vector<std::int64_t> in_bin(bins * parts_.size(), 0);
         for (std::size_t i = 0; i < centre.size(); ++i) {
@@ -85,7 +91,7 @@ private:
             const double x = centre[i][cuts_[parts_[p].cut].direction];
             if (x < low_[p] || x >= high_[p] || !(high_[p] > low_[p])) continue;
             const double bin = (x - low_[p]) / (high_[p] - low_[p]) * static_cast<double>(bins);
-            in_bin[bins * p + std::min(static_cast<std::size_t>(bin), bins - 1)] += in_units(weight[i]);
+            in_bin[bins * p + std::min(static_cast<std::size_t>(bin), bins - 1)] += weight[i];
         }
         ranks.add_up(in_bin);
         for (std::size_t p = 0; p < parts_.size(); ++p) {
@@ -107,6 +113,7 @@ private:
 void Partition::balance(const Ranks& ranks, const Box& box, std::span<const Vec3> centre,
                         std::span<const float> weight) {
     count_ = ranks.count();
+    const std::vector<std::int64_t> whole = in_units(ranks, weight);
     std::vector<Part> of_rod(centre.size(), Part{0, 0, count_});
     std::vector<Part> parts = {{0, 0, count_}};
     while (true) {
@@ -118,7 +125,7 @@ void Partition::balance(const Ranks& ranks, const Box& box, std::span<const Vec3
         for (std::size_t p = 0; p < parts.size(); ++p) number[parts[p].cut] = p;
         for (std::size_t i = 0; i < centre.size(); ++i)
             if (of_rod[i].count > 1) part_of[i] = number[of_rod[i].cut];
-        Level(parts, cuts_).cut(ranks, box, centre, weight, part_of);
+        Level(parts, cuts_).cut(ranks, box, centre, whole, part_of);
         for (std::size_t i = 0; i < centre.size(); ++i) {
             if (of_rod[i].count == 1) continue;
             const auto& [direction, place] = cuts_[of_rod[i].cut];
