@@ -89,7 +89,6 @@ ExitCode start_run(const RunOptions& options, const RunScene& scene, std::string
     const nlohmann::ordered_json start = start_entry(scene.scene, beginning);
     if (!options.quiet && !options.json) std::fputs(start_text(start, watch.seconds()).c_str(), stderr);
     Simulation simulation = assemble(scene.scene, std::move(beginning.state));
-    if (!together.ranks().alone()) simulation.require_ready_for_ranks();
     if (options.fresh) folder = freed(folder, options.quiet);
     const RunDirectory directory(folder);
     write_scene(scene, directory);
@@ -115,7 +114,6 @@ ExitCode resume_run(const RunOptions& options, const RunScene& scene, const RunD
                             scene.scene.rods.fixed);
     StepSums sums = StepSums::from_named(std::move(checkpoint.sums), scene.scene, checkpoint.state.box);
     Simulation simulation = assemble(scene.scene, std::move(checkpoint.state));
-    if (!together.ranks().alone()) simulation.require_ready_for_ranks();
     RunFiles files(directory, scene.scene, simulation, checkpoint.files);
     write_scene(scene, directory);  // it may have another end, and what was there may be damaged
     write_fixed_rods(simulation.box(), directory);

@@ -12,9 +12,9 @@
 #include "jostle/error/input_error.hpp"
 #include "jostle/measurement/measurement.hpp"
 #include "jostle/parallel/parallel_for.hpp"
-#include "jostle/parallel/thread_ranks.hpp"
 #include "jostle/scene_file/rods_of_scene.hpp"
 #include "jostle/setup/assemble.hpp"
+#include "support/first_rank.hpp"
 
 using namespace jostle;
 
@@ -93,11 +93,8 @@ void check_ranks(const Scene& scene, const State& start, int steps, std::initial
     const Outcome alone = outcome_of(scene, start, steps, {});
     for (const int count : counts) {
         CAPTURE(count);
-        Outcome shared;
-        run_as_ranks(count, [&](const Ranks& ranks) {
-            Outcome own = outcome_of(scene, start, steps, ranks);
-            if (ranks.rank() == 0) shared = std::move(own);
-        });
+        const Outcome shared = test::result_of_first_rank(
+            count, [&](const Ranks& ranks) { return outcome_of(scene, start, steps, ranks); });
         CHECK(same_bits(shared.reports, alone.reports));
         CHECK(same_bits(shared.series, alone.series));
         CHECK(same_bits(shared.contacts, alone.contacts));

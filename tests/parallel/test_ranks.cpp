@@ -11,11 +11,11 @@
 #include "jostle/error/input_error.hpp"
 #include "jostle/math/random.hpp"
 #include "jostle/parallel/parallel_for.hpp"
-#include "jostle/parallel/thread_ranks.hpp"
 #include "jostle/rods/space_filling_order.hpp"
 #include "jostle/scene/scene_box.hpp"
 #include "jostle/setup/assemble.hpp"
 #include "jostle/setup/start.hpp"
+#include "support/first_rank.hpp"
 
 using namespace jostle;
 
@@ -63,7 +63,6 @@ constexpr int no_ranks = 0;
 
 /// `rebalance_every`: so many steps; 0: where ranks have more work than others.
 Trace trace_of(const Scene& scene, const State& start, int steps, int rank_count, int rebalance_every = 0) {
-    Trace trace;
     const auto run = [&](const Ranks& ranks) {
         Simulation simulation = assemble(scene, start);
         simulation.share(ranks);
@@ -81,14 +80,10 @@ Trace trace_of(const Scene& scene, const State& start, int steps, int rank_count
         own.owned = ranks.gather(counts.owned);
         own.near = ranks.gather(counts.near);
         own.ghosts = ranks.gather(counts.ghosts);
-        if (ranks.rank() == ranks.count() - 1) trace = std::move(own);
+        return own;
     };
     parallel::set_thread_count(1);
-    if (rank_count == no_ranks)
-        run({});
-    else
-        run_as_ranks(rank_count, run);
-    return trace;
+    return rank_count == no_ranks ? run({}) : test::result_of_first_rank(rank_count, run);
 }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

@@ -15,6 +15,13 @@ double inclination_between_images(double apart, double length, double diameter) 
     return std::asin((apart * apart + length * length - diameter * diameter) / (2.0 * apart * length));
 }
 
+double distance_between_images(double inclination, double length, double diameter) {
+    if (inclination >= 0.5 * std::numbers::pi) return length + diameter;
+    const double sine = std::sin(inclination), cosine = std::cos(inclination);
+    if (diameter * sine <= length * cosine) return diameter / cosine;
+    return length * sine + std::sqrt((diameter - length * cosine) * (diameter + length * cosine));
+}
+
 std::optional<OwnImageTouch> touch_of_own_image(const PairGeometry& pair) {
     const double apart = norm(pair.centre_separation), diameter = pair.radii, length = 2.0 * pair.half_i;
     if (!(apart > diameter) || apart >= length + diameter) return std::nullopt;

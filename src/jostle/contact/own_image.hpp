@@ -10,6 +10,8 @@ namespace jostle {
 /// How far a rod may be inclined from side by side with its image, which is `apart` from it, to either side (radians):
 /// 0 where that is no more than `diameter`, pi/2 where it is `length` + `diameter` or more.
 double inclination_between_images(double apart, double length, double diameter);
+/// The inverse: how far from its image a rod has to be to be inclined so far (radians, >= 0), at least.
+double distance_between_images(double inclination, double length, double diameter);
 
 /// Where a rod that turns comes to touch its own image.
 ///

@@ -138,9 +138,7 @@ double least_edge_between_images(const Rods& rods, const MobilityOperator& mobil
     double least = 0.0;
     for (std::size_t i = 0; i < rods.size(); ++i) {
         const double turn = std::sqrt(2.0 * kT * mobility.of_rod(i).rotational * time_step) / largest_turn;
-        const bool sphere = rods.length[i] == 0.0;
-        const double open = rods.length[i] + rods.diameter[i];  // an edge that lets it turn round
-        least = std::max(least, sphere ? open : std::min(open, rods.diameter[i] / std::cos(std::min(turn, 1.5))));
+        least = std::max(least, distance_between_images(turn, rods.length[i], rods.diameter[i]));
     }
     return least;
 }

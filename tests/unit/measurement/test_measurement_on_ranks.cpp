@@ -9,8 +9,8 @@
 
 #include "jostle/measurement/measurement.hpp"
 #include "jostle/parallel/parallel_for.hpp"
-#include "jostle/parallel/thread_ranks.hpp"
 #include "jostle/stress/stress_per_rod.hpp"
+#include "support/first_rank.hpp"
 #include "support/simulations.hpp"
 
 using namespace jostle;
@@ -72,11 +72,8 @@ void check_ranks(const Scene& scene, int steps) {
     REQUIRE(alone.checkpoints.size() == 3);
     for (const int count : {1, 2, 3, 5}) {
         CAPTURE(count);
-        Measured shared;
-        run_as_ranks(count, [&](const Ranks& ranks) {
-            Measured own = measured(scene, start, steps, ranks);
-            if (ranks.rank() == 0) shared = std::move(own);
-        });
+        const Measured shared = test::result_of_first_rank(
+            count, [&](const Ranks& ranks) { return measured(scene, start, steps, ranks); });
         CHECK(same_bits(shared.series, alone.series));
         CHECK(same_bits(shared.contacts, alone.contacts));
         CHECK(same_bits(shared.field, alone.field));
