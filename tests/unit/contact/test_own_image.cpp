@@ -1,12 +1,12 @@
 // How far a rod may be inclined between its own images, and how far these have to be: each is the inverse of the other,
 // and at that inclination the rod touches its image.
 
-#include "jostle/contact/own_image.hpp"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <numbers>
+
+#include "jostle/contact/own_image.hpp"
 
 using namespace jostle;
 

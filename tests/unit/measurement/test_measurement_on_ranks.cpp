@@ -72,8 +72,8 @@ void check_ranks(const Scene& scene, int steps) {
     REQUIRE(alone.checkpoints.size() == 3);
     for (const int count : {1, 2, 3, 5}) {
         CAPTURE(count);
-        const Measured shared = test::result_of_first_rank(
-            count, [&](const Ranks& ranks) { return measured(scene, start, steps, ranks); });
+        const Measured shared =
+            test::result_of_first_rank(count, [&](const Ranks& ranks) { return measured(scene, start, steps, ranks); });
         CHECK(same_bits(shared.series, alone.series));
         CHECK(same_bits(shared.contacts, alone.contacts));
         CHECK(same_bits(shared.field, alone.field));
