@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <numeric>
+#include <utility>
 
 #include "jostle/parallel/parallel_for.hpp"
 
@@ -13,6 +14,8 @@ namespace {
 /// A contact without force takes part in the sweeps over those active if its gap would open by less than this many
 /// tolerances.
 constexpr double activation_tolerances = 100.0;
+/// A gap velocity that changes by less than this part of the tolerance is the same to the contacts around.
+constexpr double still_part = 0.1;
 /// What is added up of a sweep with momentum is counted in this part of the largest change squared.
 constexpr double turning_unit = 1e-9;
 
@@ -34,7 +37,8 @@ BlockGaussSeidel<Real>::BlockGaussSeidel(const ContactProblem& problem, double t
       matrix_(problem.matrix()),
       b_(problem.constant()),
       start_(start),
-      activation_threshold_(activation_tolerances * tolerance / problem.time_step()) {
+      activation_threshold_(activation_tolerances * tolerance / problem.time_step()),
+      still_(still_part * tolerance / problem.time_step()) {
     extend();
 }
 
@@ -60,7 +64,10 @@ void BlockGaussSeidel<Real>::begin_again() {
     parallel_for(velocities_.size(), [&](std::size_t local) { velocities_[local] = {}; });
     former_velocities_.clear();
     const auto begin = [this](auto& group) {
-        parallel_for(group.items.size(), [&](std::size_t k) { this->begin_again(group.items[k]); });
+        parallel_for(group.items.size(), [&](std::size_t k) {
+            this->begin_again(group.items[k]);
+            group.visits[k].solved = 0.0F;
+        });
         group.last.clear();
         group.sort_out(0, [](const auto& item) { return active_at_first(item); });
     };
@@ -115,13 +122,17 @@ template <class Real>
 double BlockGaussSeidel<Real>::sweep(double omega, SweepOver over) {
     const bool all = over == SweepOver::all;
     const LocalRods<Real> local_rods{matrix_.rods().data(), velocities_.data()};
+    if (std::exchange(all_are_stirred_, false)) note_stirred_rods();
+    const Relaxation by{omega, static_cast<float>(++sweeps_), still_};
     double largest = 0.0;
     const auto pass = [&](auto& group) {
         const std::size_t items = all ? group.items.size() : group.all_active;
-        largest = std::max(largest, parallel_max_of_blocks(group.active.size(), items, [&](std::size_t number) {
-                               const auto block = group.block(number);
-                               return sweep_over(all ? block : block.first(group.active[number]), omega, local_rods);
-                           }));
+        largest =
+            std::max(largest, parallel_max_of_blocks(group.active.size(), items, [&](std::size_t number) {
+                         const auto block = group.block(number);
+                         const std::size_t count = all ? block.size() : group.active[number];
+                         return sweep_over(block.first(count), group.block_of(group.visits, number), by, local_rods);
+                     }));
     };
     for (Colour& colour : colours_) {
         bring_velocities(colour);
@@ -140,8 +151,14 @@ double BlockGaussSeidel<Real>::sweep(double omega, SweepOver over) {
 }
 
 template <class Real>
+void BlockGaussSeidel<Real>::note_stirred_rods() {
+    parallel_for(velocities_.size(), [&](std::size_t local) { velocities_[local].stir(static_cast<Real>(sweeps_)); });
+}
+
+template <class Real>
 SweepProgress BlockGaussSeidel<Real>::sweep_on(double beta, double last_change) {
     carry_on_velocities(beta);
+    stir_all();
     const Extrapolation by{beta, turning_unit * last_change * last_change};
     const LocalRods<Real> local_rods{matrix_.rods().data(), velocities_.data()};
     std::atomic<std::int64_t> turning = 0, turning_elsewhere = 0;
@@ -195,7 +212,8 @@ void BlockGaussSeidel<Real>::refresh(ContactSolution& solution) {
         const ContactForce& force = solution.forces[local];
         ContactVelocity& velocity = solution.velocities[local];
         velocity = velocity_of(matrix_.rods()[local], force.force, force.moment);
-        const SpatialVector<Real> exact(velocity);
+        SpatialVector<Real> exact(velocity);
+        exact.stir(velocities_[local].stirred());
         if (local < former_velocities_.size())
             former_velocities_[local].lanes += exact.lanes - velocities_[local].lanes;
         velocities_[local] = exact;
@@ -203,8 +221,10 @@ void BlockGaussSeidel<Real>::refresh(ContactSolution& solution) {
     if (!problem_.domain().is_shared()) return;
     problem_.fetch_velocities(solution.velocities);  // the forces on ghosts are not all known here
     parallel_for(velocities_.size(), [&](std::size_t local) {
-        if (!problem_.domain().owns(matrix_.contact_matrix().rods()[local]))
-            velocities_[local] = SpatialVector<Real>(solution.velocities[local]);
+        if (problem_.domain().owns(matrix_.contact_matrix().rods()[local])) return;
+        SpatialVector<Real> exact(solution.velocities[local]);
+        exact.stir(velocities_[local].stirred());
+        velocities_[local] = exact;
     });
 }
 
@@ -213,7 +233,11 @@ template <class Item, class MakeItem>
 void BlockGaussSeidel<Real>::append(Group<Item>& group, std::span<const ContactPair> pairs, MakeItem&& item_of) {
     const std::size_t before = group.items.size();
     group.items.resize(before + pairs.size());
-    parallel_for(pairs.size(), [&](std::size_t n) { group.items[before + n] = item_of(pairs[n]); });
+    group.visits.resize(group.items.size());
+    parallel_for(pairs.size(), [&](std::size_t n) {
+        group.items[before + n] = item_of(pairs[n]);
+        group.visits[before + n] = {pairs[n].i == no_local_index ? pairs[n].j : pairs[n].i, pairs[n].j};
+    });
     group.sort_out(before, [](const Item& item) { return active_at_first(item); });
 }
 
@@ -231,7 +255,10 @@ void BlockGaussSeidel<Real>::Group<Item>::sort_out(std::size_t first, IsActive&&
                             std::size_t front = k > 0 ? active[number] : 0;
                             for (; k < in_block.size(); ++k) {
                                 if (!is_active(in_block[k])) continue;
-                                if (front != k) std::swap(in_block[front], in_block[k]);
+                                if (front != k) {
+                                    std::swap(in_block[front], in_block[k]);
+                                    std::swap(visits[begin + front], visits[begin + k]);
+                                }
                                 ++front;
                             }
                             active[number] = static_cast<std::uint8_t>(front);

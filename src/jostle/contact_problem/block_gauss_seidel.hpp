@@ -37,8 +37,10 @@ public:
     /// Begins again with the constants that the problem has now, and no forces.
     void begin_again();
 
-    /// One pass; returns the largest change of a gap velocity by a contact's own force.
+    /// One pass; returns the largest change of a gap velocity by a contact's own force. It passes over contacts whose
+    /// rods stand still since they were solved last (`sweep_over`), unless `stir_all` was called since.
     double sweep(double omega, SweepOver over);
+    void stir_all() { all_are_stirred_ = true; }
 
     /// One pass over all, not over-relaxed, from where the last change of all forces would lead if it were made again,
     /// `beta` times; 0 after `extend` or another sweep. `last_change`: what the last pass returned, not 0.
@@ -57,14 +59,17 @@ private:
     struct Group {
         static constexpr std::size_t block_size = 128;
         std::vector<Item> items;
+        std::vector<Visit> visits;                ///< (items)
         std::vector<typename Item::Forces> last;  ///< (items) by what the last `sweep_on` changed their forces
         std::vector<std::uint8_t> active;         ///< (blocks) how many are
         std::size_t all_active = 0;
 
-        std::span<Item> block(std::size_t number) {
+        template <class T>
+        std::span<T> block_of(std::vector<T>& of_items, std::size_t number) {
             const std::size_t begin = number * block_size;
-            return std::span(items).subspan(begin, std::min(block_size, items.size() - begin));
+            return std::span(of_items).subspan(begin, std::min(block_size, items.size() - begin));
         }
+        std::span<Item> block(std::size_t number) { return block_of(items, number); }
 
         /// Brings the items from `first` on that are active to the front of their blocks; of those before, as many are
         /// as `active` tells.
@@ -98,6 +103,7 @@ private:
     }
     template <class Item>
     void find_active(Group<Item>& group);
+    void note_stirred_rods();
     void carry_on_velocities(double beta);
     template <class Body>
     void for_all_forces(Body&& body);
@@ -106,8 +112,10 @@ private:
     const DelassusOperator& matrix_;
     const std::vector<double>& b_;
     const std::vector<double>& start_;
-    double activation_threshold_;
-    std::vector<SpatialVector<Real>> velocities_;         ///< (n) V, kept up to date
+    double activation_threshold_, still_;
+    std::vector<SpatialVector<Real>> velocities_;  ///< (n) V, kept up to date
+    std::uint32_t sweeps_ = 0;
+    bool all_are_stirred_ = false;
     std::vector<SpatialVector<Real>> former_velocities_;  ///< (n) V of the forces before the last `sweep_on`
     PairColours pair_colours_;
     std::vector<Colour> colours_;

@@ -65,9 +65,21 @@ double solve(CoupledBlock& pair, double omega, const LocalRods<Real>& local_rods
 }
 
 template <class Item, class Real>
-double solve_all(std::span<Item> items, double omega, const LocalRods<Real>& local_rods) {
+double solve_all(std::span<Item> items, std::span<Visit> visits, const Relaxation& by,
+                 const LocalRods<Real>& local_rods) {
     double largest = 0.0;
-    for (Item& item : items) largest = std::max(largest, solve(item, omega, local_rods));
+    for (std::size_t k = 0; k < items.size(); ++k) {
+        Visit& visit = visits[k];
+        SpatialVector<Real>&at_i = local_rods.velocities[visit.i], &at_j = local_rods.velocities[visit.j];
+        if (visit.solved > at_i.stirred() && visit.solved > at_j.stirred()) continue;
+        const double change = solve(items[k], by.omega, local_rods);
+        visit.solved = by.sweep;
+        if (change > by.still) {
+            at_i.stir(static_cast<Real>(by.sweep));
+            at_j.stir(static_cast<Real>(by.sweep));
+        }
+        largest = std::max(largest, change);
+    }
     return largest;
 }
 
@@ -122,19 +134,21 @@ SweepProgress move_all_on(std::span<Item> items, std::span<typename Item::Forces
 }  // namespace
 
 // One for each, as only plain functions can be compiled for several processors.
-JOSTLE_VECTORISED double sweep_over(std::span<ScalarBlock<float>> contacts, double omega,
+JOSTLE_VECTORISED double sweep_over(std::span<ScalarBlock<float>> contacts, std::span<Visit> visits,
+                                    const Relaxation& by, const LocalRods<float>& local_rods) {
+    return solve_all(contacts, visits, by, local_rods);
+}
+JOSTLE_VECTORISED double sweep_over(std::span<ScalarBlock<double>> contacts, std::span<Visit> visits,
+                                    const Relaxation& by, const LocalRods<double>& local_rods) {
+    return solve_all(contacts, visits, by, local_rods);
+}
+JOSTLE_VECTORISED double sweep_over(std::span<CoupledBlock> pairs, std::span<Visit> visits, const Relaxation& by,
                                     const LocalRods<float>& local_rods) {
-    return solve_all(contacts, omega, local_rods);
+    return solve_all(pairs, visits, by, local_rods);
 }
-JOSTLE_VECTORISED double sweep_over(std::span<ScalarBlock<double>> contacts, double omega,
+JOSTLE_VECTORISED double sweep_over(std::span<CoupledBlock> pairs, std::span<Visit> visits, const Relaxation& by,
                                     const LocalRods<double>& local_rods) {
-    return solve_all(contacts, omega, local_rods);
-}
-JOSTLE_VECTORISED double sweep_over(std::span<CoupledBlock> pairs, double omega, const LocalRods<float>& local_rods) {
-    return solve_all(pairs, omega, local_rods);
-}
-JOSTLE_VECTORISED double sweep_over(std::span<CoupledBlock> pairs, double omega, const LocalRods<double>& local_rods) {
-    return solve_all(pairs, omega, local_rods);
+    return solve_all(pairs, visits, by, local_rods);
 }
 
 JOSTLE_VECTORISED SweepProgress sweep_on(std::span<ScalarBlock<float>> contacts, std::span<float> last,

@@ -15,12 +15,15 @@ namespace jostle {
 template <class Real>
 struct alignas(8 * sizeof(Real)) SpatialVector {
     using Lanes [[gnu::vector_size(8 * sizeof(Real))]] = Real;
-    Lanes lanes{};  // 0-2 centre, 3-5 axis_rate, the rest 0
+    Lanes
+        lanes{};  // 0-2 centre, 3-5 axis_rate, 6 is 0; of a rod's velocity 7 is the sweep that stirred it last, else 0
 
     SpatialVector() = default;
     explicit SpatialVector(const ContactForce& force) : SpatialVector(force.force, force.moment) {}
     explicit SpatialVector(const ContactVelocity& velocity) : SpatialVector(velocity.centre, velocity.axis_rate) {}
     ContactVelocity velocity() const { return {{lanes[0], lanes[1], lanes[2]}, {lanes[3], lanes[4], lanes[5]}}; }
+    Real stirred() const { return lanes[7]; }
+    void stir(Real sweep) { lanes[7] = sweep; }
 
 private:
     SpatialVector(const Vec3& a, const Vec3& b)
@@ -118,13 +121,32 @@ struct LocalRods {
     SpatialVector<Real>* velocities;
 };
 
+/// What tells whether a sweep has to solve a contact: its rods, and the sweep that solved it last. A fixed body is told
+/// as the rod itself.
+struct Visit {
+    std::uint32_t i = 0, j = 0;  ///< local indices
+    float solved = 0.0F;         ///< 0: never
+};
+
+/// A sweep that is over-relaxed by omega.
+struct Relaxation {
+    double omega = 1.0;
+    float sweep = 1.0F;  ///< its number, from 1 on, as long as numbers are whole in float: 2^24
+    double still = 0.0;  ///< a gap velocity that changes by no more leaves the rods of the contact as they are
+};
+
 /// Solves the contact problem of each in turn, over-relaxed, with all other forces as they are, and keeps the
-/// velocities up to date. Returns the largest change of a gap velocity by the contact's own force. No two may share a
-/// rod if their order is not to matter.
-double sweep_over(std::span<ScalarBlock<float>> contacts, double omega, const LocalRods<float>& local_rods);
-double sweep_over(std::span<ScalarBlock<double>> contacts, double omega, const LocalRods<double>& local_rods);
-double sweep_over(std::span<CoupledBlock> pairs, double omega, const LocalRods<float>& local_rods);
-double sweep_over(std::span<CoupledBlock> pairs, double omega, const LocalRods<double>& local_rods);
+/// velocities up to date. Passes over contacts if no other one has stirred their rods since they were solved last, and
+/// their own last change was as small. Returns the largest change of a gap velocity by the contact's own force. No two
+/// may share a rod if their order is not to matter. `visits`: one a contact.
+double sweep_over(std::span<ScalarBlock<float>> contacts, std::span<Visit> visits, const Relaxation& by,
+                  const LocalRods<float>& local_rods);
+double sweep_over(std::span<ScalarBlock<double>> contacts, std::span<Visit> visits, const Relaxation& by,
+                  const LocalRods<double>& local_rods);
+double sweep_over(std::span<CoupledBlock> pairs, std::span<Visit> visits, const Relaxation& by,
+                  const LocalRods<float>& local_rods);
+double sweep_over(std::span<CoupledBlock> pairs, std::span<Visit> visits, const Relaxation& by,
+                  const LocalRods<double>& local_rods);
 
 /// Where a sweep with momentum begins: `beta` times the change of all forces by the last sweep farther on.
 struct Extrapolation {

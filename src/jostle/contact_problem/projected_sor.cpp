@@ -103,6 +103,7 @@ public:
             const bool settled = !(change_ > settings_.tolerance);
             if (!decided && settled && ++failures_ == max_failures_) return End::given_up;
             sweep_all_ = true;
+            if (!decided) gauss_seidel_.stir_all();  // many changes that were too small to be told may add up
             next_verification_ = outcome_.iterations + 5;
             if (decided) return verified_end();
         }
