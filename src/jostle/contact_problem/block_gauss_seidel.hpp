@@ -113,10 +113,10 @@ private:
     const std::vector<double>& b_;
     const std::vector<double>& start_;
     double activation_threshold_, still_;
-    std::vector<SpatialVector<Real>> velocities_;  ///< (n) V, kept up to date
-    std::uint32_t sweeps_ = 0;
-    bool all_are_stirred_ = false;
+    std::vector<SpatialVector<Real>> velocities_;         ///< (n) V, kept up to date
     std::vector<SpatialVector<Real>> former_velocities_;  ///< (n) V of the forces before the last `sweep_on`
+    std::uint32_t sweeps_ = 0;                            ///< so far; numbers them
+    bool all_are_stirred_ = false;                        ///< to the next sweep no rod stands still
     PairColours pair_colours_;
     std::vector<Colour> colours_;
     BorderMessages all_messages_;  ///< of all rods that pairs between ranks share

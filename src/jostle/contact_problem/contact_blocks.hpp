@@ -15,8 +15,8 @@ namespace jostle {
 template <class Real>
 struct alignas(8 * sizeof(Real)) SpatialVector {
     using Lanes [[gnu::vector_size(8 * sizeof(Real))]] = Real;
-    Lanes
-        lanes{};  // 0-2 centre, 3-5 axis_rate, 6 is 0; of a rod's velocity 7 is the sweep that stirred it last, else 0
+    /// 0-2 centre, 3-5 axis_rate, 6 always 0; 7 of a rod's velocity the sweep that stirred it last, else 0.
+    Lanes lanes{};
 
     SpatialVector() = default;
     explicit SpatialVector(const ContactForce& force) : SpatialVector(force.force, force.moment) {}
