@@ -198,7 +198,8 @@ def test_shapes_are_those_of_spherocylinders(run, browser, tmp_path):
         # Antialiasing may add a pixel at either side.
         assert high == pytest.approx((length + 1.0) * wide, abs=2 * (length + 1.0))
         diameter = wide - 1
-        assert outline.sum() == pytest.approx(np.pi / 4 * diameter**2 + (high - 1 - diameter) * diameter, rel=0.06)
+        # Of the rod's own length: whether the outermost row of pixels is painted changes from drawing to drawing.
+        assert outline.sum() == pytest.approx((np.pi / 4 + length) * diameter**2, rel=0.06)
 
 
 def only_rod(path, length):
