@@ -180,18 +180,22 @@ void Run::write_what_is_due(const Due& due, bool checkpoint_is_overdue) {
 }
 
 void Run::append_frame() {
-    const Rods rods = simulation_.domain().at_first_rank(simulation_.rods());
-    CollisionMoments moments;
-    if (scene_.output.stress_per_rod) moments = at_first_rank(simulation_.collision_moments(), ranks_);
-    if (is_first()) files_->append_frame(simulation_, rods, moments);
+    const RodsInOrder rods = simulation_.rods_in_order();
+    std::vector<Mat3> stress;
+    if (scene_.output.stress_per_rod) stress = stress_of_last_step(simulation_, rods);
+    if (is_first())
+        files_->append_frame(simulation_, rods, stress);
+    else
+        TrajectoryJournal::send_rods(rods);
 }
 
 void Run::checkpoint() {
     const auto begin = std::chrono::steady_clock::now();
-    Checkpoint now = checkpoint_of(simulation_, measurement_.sums(), run_scene_.resolved);
+    Checkpoint now = checkpoint_without_rods(simulation_, measurement_.sums(), run_scene_.resolved);
+    const RodsInOrder rods = simulation_.rods_in_order();
     last_checkpoint_ = std::chrono::steady_clock::now();
-    if (!is_first()) return;
-    files_->write_checkpoint(std::move(now));
+    if (!is_first()) return send_rods_of_checkpoint(rods);
+    files_->write_checkpoint(std::move(now), rods);
     record("running");  // what a session that is killed has done
     last_checkpoint_ = std::chrono::steady_clock::now();
     const std::chrono::duration<double> took = last_checkpoint_ - begin;

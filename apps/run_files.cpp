@@ -8,7 +8,6 @@
 #include "jostle/error/input_error.hpp"
 #include "jostle/measurement/frame_steps.hpp"
 #include "jostle/measurement/series_columns.hpp"
-#include "jostle/rods/space_filling_order.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/stress/stress_per_rod.hpp"
 
@@ -65,18 +64,6 @@ SeriesFile resumed_series(const RunDirectory& directory, const Scene& scene, con
 
 const Mat3 unknown = std::numeric_limits<double>::quiet_NaN() * Mat3{{1, 1, 1, 1, 1, 1, 1, 1, 1}};
 
-/// The stress of every rod (N) in the last step; not a number for a rod that was not in it.
-std::vector<Mat3> stress_of_last_step(const Simulation& simulation, const CollisionMoments& moments,
-                                      const std::vector<std::uint64_t>& ids) {
-    std::vector<Mat3> stress = stress_per_rod(moments, ids);
-    for (const LineageEvent& event : simulation.lineage()) {
-        const auto found = std::lower_bound(ids.begin(), ids.end(), event.id);
-        if (event.kind == LineageEvent::Kind::birth && found != ids.end() && *found == event.id)
-            stress[static_cast<std::size_t>(found - ids.begin())] = unknown;
-    }
-    return stress;
-}
-
 void write_descriptions(const RunDirectory& directory, const Scene& scene) {
     for (const DescribedTable& table : described_tables(scene))
         replace_file(directory.file(table.name + ".json"), series_description(table.name, table.columns));
@@ -91,6 +78,18 @@ std::vector<DescribedTable> described_tables(const Scene& scene) {
     return tables;
 }
 
+std::vector<Mat3> stress_of_last_step(const Simulation& simulation, const RodsInOrder& rods) {
+    const CollisionMoments moments = at_first_rank(simulation.collision_moments(), simulation.domain().ranks());
+    const std::vector<std::uint64_t> ids = rods.ids();
+    std::vector<Mat3> stress = stress_per_rod(moments, ids);
+    for (const LineageEvent& event : simulation.lineage()) {
+        const auto found = std::lower_bound(ids.begin(), ids.end(), event.id);
+        if (event.kind == LineageEvent::Kind::birth && found != ids.end() && *found == event.id)
+            stress[static_cast<std::size_t>(found - ids.begin())] = unknown;
+    }
+    return stress;
+}
+
 RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, const std::string& resolved_scene,
                    const Simulation& simulation, const StepSums& sums)
     : directory_(directory),
@@ -98,7 +97,7 @@ RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, const std:
       series_file_(SeriesFile::create(directory.file("series.csv"), series_columns(scene).about())),
       lineage_columns_(lineage_columns(scene)) {
     open_others(simulation, {});
-    write_checkpoint(checkpoint_of(simulation, sums, resolved_scene));
+    write_checkpoint(checkpoint_without_rods(simulation, sums, resolved_scene), simulation.rods_in_order());
 }
 
 RunFiles::RunFiles(const RunDirectory& directory, const Scene& scene, const Simulation& simulation,
@@ -134,20 +133,14 @@ void RunFiles::append_row(const std::vector<double>& row) {
     series_file_.append(row);
 }
 
-void RunFiles::append_frame(const Simulation& simulation, const Rods& rods, const CollisionMoments& moments) {
-    append_frame(
-        simulation, rods,
-        scene_.output.stress_per_rod ? stress_of_last_step(simulation, moments, rods.id) : std::vector<Mat3>{});
+void RunFiles::append_frame(const Simulation& simulation, const RodsInOrder& rods, const std::vector<Mat3>& stress) {
+    journal_->append(simulation.clock().step, simulation.clock().time, simulation.box(), rods, stress);
 }
 
 /// No step leads to it.
 void RunFiles::append_first_frame(const Simulation& simulation) {
-    const Rods rods = in_order_of_ids(simulation.rods());
+    const RodsInOrder rods = simulation.rods_in_order();
     append_frame(simulation, rods, std::vector<Mat3>(scene_.output.stress_per_rod ? rods.size() : 0, unknown));
-}
-
-void RunFiles::append_frame(const Simulation& simulation, const Rods& rods, const std::vector<Mat3>& stress) {
-    journal_->append(simulation.clock().step, simulation.clock().time, simulation.box(), rods, stress);
 }
 
 void RunFiles::append_contacts(const TableRows& rows) {
@@ -166,7 +159,7 @@ void RunFiles::append(std::size_t table, const TableRows& rows) {
     for (const std::vector<double>& row : rows) side_files_[table]->append(row);
 }
 
-void RunFiles::write_checkpoint(Checkpoint checkpoint) {
+void RunFiles::write_checkpoint(Checkpoint checkpoint, const RodsInOrder& rods) {
     const auto keep = [&](const std::string& name, auto& file) {
         file.sync();
         checkpoint.files[name] = {file.bytes(), file.hash()};
@@ -176,5 +169,5 @@ void RunFiles::write_checkpoint(Checkpoint checkpoint) {
     const auto tables = side_tables(scene_);
     for (std::size_t k = 0; k < tables.size(); ++k)
         if (side_files_[k]) keep(tables[k].file(), *side_files_[k]);
-    jostle::write_checkpoint(directory_.path(), checkpoint);
+    jostle::write_checkpoint(directory_.path(), checkpoint, rods);
 }

@@ -23,6 +23,10 @@ struct DescribedTable {
 /// All of them, the series first.
 std::vector<DescribedTable> described_tables(const jostle::Scene& scene);
 
+/// The stress of every rod (N) in the last step, in the order of ids, for the first rank; all call it together. Not a
+/// number for a rod that was not in that step.
+std::vector<jostle::Mat3> stress_of_last_step(const jostle::Simulation& simulation, const jostle::RodsInOrder& rods);
+
 /// The files that grow while a run lasts, kept in step with its checkpoints.
 ///
 /// Resuming cuts all of them back to the checkpoint, so that the steps made since are made, and written, again.
@@ -37,25 +41,22 @@ public:
              const jostle::FilePositions& positions);
 
     void append_row(const std::vector<double>& row);
-    /// `rods`: of all ranks, in the order of ids; `moments` of the last step: of all, too, if the stress of each rod is
-    /// asked for.
-    void append_frame(const jostle::Simulation& simulation, const jostle::Rods& rods,
-                      const jostle::CollisionMoments& moments);
+    /// `stress`: that of the last step, if it is asked for. The other ranks send their rods.
+    void append_frame(const jostle::Simulation& simulation, const jostle::RodsInOrder& rods,
+                      const std::vector<jostle::Mat3>& stress);
     void append_contacts(const jostle::TableRows& rows);
     void append_field(const jostle::TableRows& rows);
     /// Who was born and who died after the last step.
     void append_lineage(const jostle::Simulation& simulation);
 
-    /// Makes everything so far durable, and the point to go on from.
-    void write_checkpoint(jostle::Checkpoint checkpoint);
+    /// Makes everything so far durable, and the point to go on from. The other ranks send their rods.
+    void write_checkpoint(jostle::Checkpoint checkpoint, const jostle::RodsInOrder& rods);
 
     bool has_trajectory() const { return journal_.has_value(); }
 
 private:
     void open_others(const jostle::Simulation& simulation, const jostle::FilePositions& positions);
     void append_first_frame(const jostle::Simulation& simulation);
-    void append_frame(const jostle::Simulation& simulation, const jostle::Rods& rods,
-                      const std::vector<jostle::Mat3>& stress);
     void append(std::size_t table, const jostle::TableRows& rows);
 
     const jostle::RunDirectory& directory_;

@@ -45,7 +45,8 @@ void Together::require_ready(const Scene& scene) const {
 
 void Together::begin(const RunScene& scene, const Simulation& simulation, const StepSums& sums) {
     have_begun_ = true;
-    if (!ranks_.alone()) ranks_.of_first(packed(checkpoint_of(simulation, sums, scene.text)));
+    if (ranks_.alone()) return;
+    ranks_.of_first(packed(checkpoint_without_rods(simulation, sums, scene.text), simulation.rods_in_order()));
 }
 
 void Together::call_off() const {

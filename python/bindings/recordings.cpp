@@ -26,7 +26,7 @@ std::size_t SimulationInPython::record(const std::string& journal, std::uint64_t
 void SimulationInPython::append_frame(Recording& recording) {
     if (!recording.journal) return;
     recording.journal->append(simulation_.clock().step, simulation_.clock().time, simulation_.box(),
-                              in_order_of_ids(simulation_.rods()), {});
+                              simulation_.rods());
     ++recording.frames;
 }
 

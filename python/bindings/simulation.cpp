@@ -247,7 +247,8 @@ std::size_t SimulationInPython::row_count() const {
 
 void SimulationInPython::save(const std::string& folder) const {
     require_between_steps();  // within a motion cells have grown, and the clock has not moved
-    write_checkpoint(folder, checkpoint_of(simulation(), measurement_.sums(), to_toml(scene_.scene)));
+    const Checkpoint now = checkpoint_without_rods(simulation(), measurement_.sums(), to_toml(scene_.scene));
+    write_checkpoint(folder, now, simulation().rods_in_order());
 }
 
 int SimulationInPython::traverse(visitproc visit, void* argument) const {

@@ -55,9 +55,10 @@ public:
         for (const auto& row : lineage_rows(lineage_columns_, simulation)) lineage_.append(row);
     }
     void append_frame(const Simulation& simulation) {
-        const Rods rods = in_order_of_ids(simulation.rods());
-        journal_.append(simulation.clock().step, simulation.clock().time, simulation.box(), rods,
-                        stress_per_rod(simulation.collision_moments(), rods.id));
+        std::vector<std::uint64_t> ids = simulation.rods().id;
+        std::sort(ids.begin(), ids.end());
+        journal_.append(simulation.clock().step, simulation.clock().time, simulation.box(), simulation.rods(),
+                        stress_per_rod(simulation.collision_moments(), ids));
     }
     std::string bytes(const char* name) const { return read_file(folder_.file(name)); }
 
@@ -97,7 +98,8 @@ Outcome outcome_of(const Scene& scene, const Beginning& beginning, Rows rows, in
         if (due.frame) files.append_frame(simulation);
     }
     const TemporaryFolder folder;
-    write_checkpoint(folder.path(), checkpoint_of(simulation, measurement.sums(), "scene"));
+    write_checkpoint(folder.path(), checkpoint_without_rods(simulation, measurement.sums(), "scene"),
+                     simulation.rods_in_order());
     return {state_hash(simulation),
             results.value(),
             measurement.summary(simulation).dump(),

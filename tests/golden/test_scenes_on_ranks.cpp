@@ -55,6 +55,10 @@ void append(const TableRows& rows, TableRows& all) {
     all.insert(all.end(), rows.begin(), rows.end());
 }
 
+std::string checkpoint_bytes(const Simulation& simulation, const StepSums& sums) {
+    return packed(checkpoint_without_rods(simulation, sums, "scene"), simulation.rods_in_order());
+}
+
 Outcome outcome_of(const Scene& scene, const State& start, int steps, const Ranks& ranks) {
     Simulation simulation = assemble(scene, start);
     Measurement measurement(scene, simulation);
@@ -72,10 +76,10 @@ Outcome outcome_of(const Scene& scene, const State& start, int steps, const Rank
             all.series.push_back(measurement.last_row());
             append(contact_rows(contact_columns(scene), simulation), all.contacts);
         }
-        if (due.checkpoint) all.checkpoints.push_back(packed(checkpoint_of(simulation, measurement.sums(), "scene")));
+        if (due.checkpoint) all.checkpoints.push_back(checkpoint_bytes(simulation, measurement.sums()));
     }
     simulation.unite();
-    all.checkpoints.push_back(packed(checkpoint_of(simulation, {}, "scene")));
+    all.checkpoints.push_back(checkpoint_bytes(simulation, {}));
     return all;
 }
 

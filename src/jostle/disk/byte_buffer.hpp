@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -13,6 +14,13 @@ namespace jostle {
 
 // Numbers go to disk as they lie in memory; a big-endian machine would need them turned round here.
 static_assert(std::endian::native == std::endian::little);
+
+/// Values as they lie in memory.
+template <class Value>
+std::string_view bytes_of(std::span<const Value> values) {
+    static_assert(std::is_trivially_copyable_v<Value>);
+    return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
+}
 
 /// Collects plain values, arrays and texts into one run of bytes, little endian, without padding.
 class ByteWriter {
@@ -26,8 +34,7 @@ public:
     /// The elements alone; their number is written by whoever needs it.
     template <class Value>
     void put_elements(const std::vector<Value>& values) {
-        static_assert(std::is_trivially_copyable_v<Value>);
-        bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value));
+        put_bytes(bytes_of(std::span(values)));
     }
 
     void put_text(std::string_view text) {

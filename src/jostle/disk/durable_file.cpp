@@ -167,17 +167,17 @@ std::string read_file(const std::string& path) {
     return content;
 }
 
-void write_synced_file(const std::string& path, std::span<const std::string_view> pieces) {
+void write_synced_file(const std::string& path, const std::function<void(AppendFile&)>& write) {
     remove_file_if_present(path);  // what a link of that name leads to is no file of the run
     AppendFile file(path);
-    for (const std::string_view piece : pieces) file.write_all(piece);
+    write(file);
     file.sync();
 }
 
 void replace_file(const std::string& path, std::string_view content) {
     const std::string temporary = path + ".tmp";
     try {
-        write_synced_file(temporary, {&content, 1});
+        write_synced_file(temporary, [&](AppendFile& file) { file.write_all(content); });
         rename_file(temporary, path);
     } catch (...) {
         remove_file_if_present(temporary);

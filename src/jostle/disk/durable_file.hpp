@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -87,9 +87,9 @@ std::string read_file(const std::string& path);
 /// Goes through PATH.tmp; on failure that is removed and the old file stays. Errors: DiskError.
 void replace_file(const std::string& path, std::string_view content);
 
-/// The steps of replace_file, for sequences of their own and content in pieces (each ends with an fsync where it
-/// matters). Errors: DiskError.
-void write_synced_file(const std::string& path, std::span<const std::string_view> pieces);
+/// The steps of replace_file, for sequences of their own and content that `write` appends to a new file (each ends with
+/// an fsync where it matters). Errors: DiskError.
+void write_synced_file(const std::string& path, const std::function<void(AppendFile&)>& write);
 void rename_file(const std::string& from, const std::string& to);
 void sync_folder(const std::string& folder);
 void remove_file_if_present(const std::string& path) noexcept;

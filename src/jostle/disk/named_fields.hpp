@@ -2,11 +2,14 @@
 
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <map>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "jostle/disk/byte_buffer.hpp"
@@ -19,6 +22,9 @@ namespace jostle {
 /// Arrays stay where they are, for there may be ten million rods: those that are put must outlive the writer.
 class FieldWriter {
 public:
+    /// Takes bytes, one piece after the other.
+    using Sink = std::function<void(std::string_view)>;
+
     template <class Value>
     void put(std::string_view name, const Value& value) {
         static_assert(std::is_trivially_copyable_v<Value>);
@@ -31,10 +37,8 @@ public:
     }
     template <class Value>
     void put_array(std::string_view name, const std::vector<Value>& values) {
-        static_assert(std::is_trivially_copyable_v<Value>);
-        begin(name, values.size() * sizeof(Value));
-        parts_.back().array = {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)};
-        parts_.emplace_back();
+        const std::string_view bytes = bytes_of(std::span(values));
+        put_pieces(name, bytes.size(), [bytes](const Sink& sink) { sink(bytes); });
     }
     /// An array of one thing that each of the items has: `part(item)`.
     template <class Item, class Part>
@@ -45,17 +49,32 @@ public:
         for (const Item& item : items) parts_.back().copied.put(static_cast<Value>(part(item)));
     }
 
-    /// As long as arrays and this are there.
-    std::vector<std::string_view> pieces() const {
-        std::vector<std::string_view> pieces;
-        for (const Part& part : parts_) pieces.insert(pieces.end(), {part.copied.bytes(), part.array});
-        return pieces;
+    /// So many bytes, which `pieces` gives to a sink when all is written.
+    void put_pieces(std::string_view name, std::uint64_t bytes, std::function<void(const Sink&)> pieces) {
+        begin(name, bytes);
+        parts_.back().pieces = std::move(pieces);
+        parts_.back().bytes = bytes;
+        parts_.emplace_back();
+    }
+
+    /// How many bytes all are together.
+    std::uint64_t bytes() const {
+        std::uint64_t sum = 0;
+        for (const Part& part : parts_) sum += part.copied.bytes().size() + part.bytes;
+        return sum;
+    }
+    void write(const Sink& sink) const {
+        for (const Part& part : parts_) {
+            sink(part.copied.bytes());
+            if (part.pieces) part.pieces(sink);
+        }
     }
 
 private:
     struct Part {
         ByteWriter copied;
-        std::string_view array;  ///< after it
+        std::function<void(const Sink&)> pieces = {};  ///< after it
+        std::uint64_t bytes = 0;                       ///< of the pieces
     };
 
     void begin(std::string_view name, std::uint64_t bytes) {

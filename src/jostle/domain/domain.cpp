@@ -236,31 +236,6 @@ Rods Domain::all_rods(const Rods& rods) const {
     return all;
 }
 
-Rods Domain::at_first_rank(const Rods& rods, std::size_t slice) const {
-    if (!is_shared()) return in_order_of_ids(rods);
-    const Carries carries = carried_by_any(ranks_, rods);
-    std::vector<std::uint32_t> own(owned_);
-    std::iota(own.begin(), own.end(), 0U);
-    std::sort(own.begin(), own.end(), [&](std::uint32_t a, std::uint32_t b) { return rods.id[a] < rods.id[b]; });
-    Rods all;
-    all.founder_bits = rods.founder_bits;
-    // Ids may lie far apart: a slice ends where a rank would send more than its part of it.
-    const auto count = static_cast<std::size_t>(ranks_.count());
-    const std::size_t part = std::max<std::size_t>(1, slice / count);
-    for (std::size_t sent = 0;;) {
-        const double beyond = sent + part < own.size() ? static_cast<double>(rods.id[own[sent + part]]) : INFINITY;
-        const double end = -ranks_.largest(-beyond);
-        std::vector<std::vector<CarriedRod>> to(count);
-        for (; sent < own.size() && static_cast<double>(rods.id[own[sent]]) < end; ++sent)
-            to[0].push_back(carried(rods, own[sent]));
-        std::vector<CarriedRod> arrived;
-        for (const auto& of_rank : ranks_.deal(to)) arrived.insert(arrived.end(), of_rank.begin(), of_rank.end());
-        std::sort(arrived.begin(), arrived.end(), [](const CarriedRod& a, const CarriedRod& b) { return a.id < b.id; });
-        for (const CarriedRod& rod : arrived) append(all, rod, carries);
-        if (end == INFINITY) return all;
-    }
-}
-
 // Every rod is known to one rank that follows from its id, which the others ask.
 std::vector<int> Domain::ranks_of(const Rods& rods, std::span<const std::uint64_t> ids) const {
     const auto count = static_cast<std::size_t>(ranks_.count());

@@ -72,10 +72,6 @@ public:
     /// The rods of all ranks, in any order.
     Rods all_rods(const Rods& rods) const;
 
-    /// The rods of all ranks in the order of ids, for rank 0; none for the others. They come in slices, so that rank 0
-    /// needs no more memory than for the rods and one slice.
-    Rods at_first_rank(const Rods& rods, std::size_t slice = std::size_t{1} << 20) const;
-
     static constexpr int nobody = -1;
     /// The rank that has each of these rods as its own now, or `nobody`. All ranks call it together, each with ids of
     /// its own choice.

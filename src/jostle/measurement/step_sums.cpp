@@ -116,7 +116,7 @@ void StepSums::add_to_field(const Simulation& simulation) {
         return;
     }
     const CollisionMoments moments = at_first_rank(simulation.collision_moments(), domain.ranks());
-    const Rods all = domain.at_first_rank(simulation.rods());
+    const Rods all = simulation.rods_in_order().whole();
     if (domain.ranks().rank() == 0) field->add(moments, all, temperature);
 }
 
@@ -209,10 +209,10 @@ StepSums StepSums::from_named(NamedNumbers numbers, const Scene& scene, const Bo
     return sums;
 }
 
-Checkpoint checkpoint_of(const Simulation& simulation, const StepSums& sums, std::string scene) {
+Checkpoint checkpoint_without_rods(const Simulation& simulation, const StepSums& sums, std::string scene) {
     Checkpoint checkpoint;
     checkpoint.scene = std::move(scene);
-    checkpoint.state = simulation.whole_state();
+    checkpoint.state = simulation.state_without_rods();
     checkpoint.sums = sums.to_named(simulation.domain().ranks());
     return checkpoint;
 }

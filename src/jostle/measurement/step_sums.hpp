@@ -62,9 +62,9 @@ private:
     void stretch(const StepReport& report);
 };
 
-/// A checkpoint of the state and the sums; of files it knows nothing yet. Of several ranks it is for rank 0, and all
-/// call this together.
-Checkpoint checkpoint_of(const Simulation& simulation, const StepSums& sums, std::string scene);
+/// A checkpoint of the sums and of the state but for its rods, which are `simulation.rods_in_order()`; of files it
+/// knows nothing yet. Of several ranks it is for rank 0, and all call this together.
+Checkpoint checkpoint_without_rods(const Simulation& simulation, const StepSums& sums, std::string scene);
 
 /// Sums at the beginning of a run.
 StepSums first_sums(const Scene& scene, const Simulation& simulation);

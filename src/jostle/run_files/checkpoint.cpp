@@ -1,8 +1,5 @@
 #include "jostle/run_files/checkpoint.hpp"
 
-#include <algorithm>
-#include <functional>
-#include <numeric>
 #include <stdexcept>
 #include <string_view>
 #include <unordered_map>
@@ -69,24 +66,30 @@ std::string way_out(const std::string& path, const std::string& previous) {
 }  // namespace
 
 void write_checkpoint(const std::string& folder, const Checkpoint& checkpoint) {
-    const FieldWriter fields = fields_of(checkpoint);
-    std::vector<std::string_view> pieces = fields.pieces();
-    ByteWriter numbers;
-    numbers.put(format_version);
-    numbers.put(std::uint32_t{0});
-    numbers.put(std::transform_reduce(pieces.begin(), pieces.end(), std::uint64_t{0}, std::plus<>(),
-                                      [](std::string_view piece) { return std::uint64_t{piece.size()}; }));
-    pieces.insert(pieces.begin(), {magic, numbers.bytes()});
-    RunningChecksum sum;
-    for (const std::string_view piece : pieces) sum.add(piece);
-    ByteWriter footer;
-    footer.put(sum.value());
-    pieces.push_back(footer.bytes());
+    write_checkpoint(folder, checkpoint, checkpoint.state.rods);
+}
 
+void write_checkpoint(const std::string& folder, const Checkpoint& checkpoint, const RodsInOrder& rods) {
+    const FieldWriter fields = fields_of(checkpoint, rods);
+    ByteWriter header, footer;
+    header.put_bytes(magic);
+    header.put(format_version);
+    header.put(std::uint32_t{0});
+    header.put(fields.bytes());
     const std::string path = folder + "/checkpoint";
     const std::string temporary = path + ".tmp";
     try {
-        write_synced_file(temporary, pieces);
+        write_synced_file(temporary, [&](AppendFile& file) {
+            RunningChecksum sum;
+            const auto write = [&](std::string_view piece) {
+                sum.add(piece);
+                file.write_all(piece);
+            };
+            write(header.bytes());
+            fields.write(write);
+            footer.put(sum.value());
+            file.write_all(footer.bytes());
+        });
         if (file_exists(path)) rename_file(path, path + ".previous");
         rename_file(temporary, path);
     } catch (...) {
@@ -96,10 +99,19 @@ void write_checkpoint(const std::string& folder, const Checkpoint& checkpoint) {
     sync_folder(folder);
 }
 
+void send_rods_of_checkpoint(const RodsInOrder& rods) {
+    fields_of({}, rods).write([](std::string_view) {});
+}
+
 std::string packed(const Checkpoint& checkpoint) {
-    const FieldWriter fields = fields_of(checkpoint);
+    return packed(checkpoint, checkpoint.state.rods);
+}
+
+std::string packed(const Checkpoint& checkpoint, const RodsInOrder& rods) {
+    const FieldWriter fields = fields_of(checkpoint, rods);
     std::string bytes;
-    for (const std::string_view piece : fields.pieces()) bytes += piece;
+    bytes.reserve(fields.bytes());
+    fields.write([&](std::string_view piece) { bytes += piece; });
     return bytes;
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "jostle/domain/rods_in_order.hpp"
 #include "jostle/math/named_numbers.hpp"
 #include "jostle/state/state.hpp"
 
@@ -30,12 +31,16 @@ struct Checkpoint {
     FilePositions files;  ///< of the run's growing files
 };
 
-/// Writes FOLDER/checkpoint, and keeps the one before as FOLDER/checkpoint.previous.
+/// Writes FOLDER/checkpoint, its rods in the order of ids, and keeps the one before as FOLDER/checkpoint.previous.
 ///
 /// A kill or a power cut at any moment leaves at least one of the two whole: the new one is complete on the disk
 /// (checkpoint.tmp, fsync) before anything is renamed. Series and trajectory must have been synced before.
 /// Errors: DiskError; the last sound checkpoint is then still there.
 void write_checkpoint(const std::string& folder, const Checkpoint& checkpoint);
+/// The same with these rods in the place of the checkpoint's own. Where ranks share them the first one calls it, and
+/// the others `send_rods_of_checkpoint`.
+void write_checkpoint(const std::string& folder, const Checkpoint& checkpoint, const RodsInOrder& rods);
+void send_rods_of_checkpoint(const RodsInOrder& rods);
 
 /// Reads and verifies one checkpoint file, and changes nothing.
 ///
@@ -48,6 +53,9 @@ Checkpoint read_checkpoint(const std::string& path);
 /// A checkpoint as bytes, for another process of the same program; and back. Errors: std::out_of_range if they are not
 /// whole.
 std::string packed(const Checkpoint& checkpoint);
+/// The same with these rods in the place of the checkpoint's own, for the first of the ranks that share them; all call
+/// it together.
+std::string packed(const Checkpoint& checkpoint, const RodsInOrder& rods);
 Checkpoint unpacked(std::string_view bytes);
 
 /// What no run can have left in a checkpoint, in words: a number that is not finite or out of its range, a rod outside

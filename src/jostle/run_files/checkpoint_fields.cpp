@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -9,20 +10,35 @@ namespace jostle {
 
 namespace {
 
-void put_rods(FieldWriter& writer, const Rods& rods) {
-    writer.put_array("rods.centre", rods.centre);
-    writer.put_array("rods.axis", rods.axis);
-    writer.put_array("rods.length", rods.length);
-    writer.put_array("rods.diameter", rods.diameter);
-    writer.put_array("rods.id", rods.id);
-    writer.put_array("rods.image", rods.image);
-    writer.put_array("rods.speed", rods.speed);
-    writer.put_column("rods.cycle.growth_rate", rods.cycle, [](const CellCycle& cycle) { return cycle.growth_rate; });
-    writer.put_column("rods.cycle.division_at", rods.cycle, [](const CellCycle& cycle) { return cycle.division_at; });
-    writer.put_column("rods.cycle.birth_step", rods.cycle, [](const CellCycle& cycle) { return cycle.birth_step; });
-    writer.put_column("rods.cycle.divisions", rods.cycle, [](const CellCycle& cycle) { return cycle.divisions; });
-    writer.put_column("rods.cycle.share", rods.cycle, [](const CellCycle& cycle) { return cycle.share; });
-    writer.put("rods.founder_bits", static_cast<std::int32_t>(rods.founder_bits));
+template <class Of>
+void put_column(FieldWriter& writer, std::string_view name, const RodsInOrder& rods, bool have_it, const Of& of) {
+    using Value = decltype(of(std::declval<const Rods&>(), std::uint32_t{}));
+    if (!have_it) return writer.put_pieces(name, 0, [](const FieldWriter::Sink&) {});
+    writer.put_pieces(name, rods.size() * sizeof(Value), [&rods, of](const FieldWriter::Sink& sink) {
+        rods.column(of, [&](std::span<const Value> values) { sink(bytes_of(values)); });
+    });
+}
+
+void put_rods(FieldWriter& writer, const RodsInOrder& rods) {
+    const auto put = [&](std::string_view name, bool have_it, const auto& of) {
+        put_column(writer, name, rods, have_it, of);
+    };
+    put("rods.centre", true, [](const Rods& of, std::uint32_t row) { return of.centre[row]; });
+    put("rods.axis", true, [](const Rods& of, std::uint32_t row) { return of.axis[row]; });
+    put("rods.length", true, [](const Rods& of, std::uint32_t row) { return of.length[row]; });
+    put("rods.diameter", true, [](const Rods& of, std::uint32_t row) { return of.diameter[row]; });
+    put("rods.id", true, [](const Rods& of, std::uint32_t row) { return of.id[row]; });
+    put("rods.image", true, [](const Rods& of, std::uint32_t row) { return of.image[row]; });
+    put("rods.speed", rods.have_speed(), [](const Rods& of, std::uint32_t row) { return of.speed[row]; });
+    const auto put_cycle = [&](std::string_view name, auto CellCycle::*part) {
+        put(name, rods.have_cycle(), [part](const Rods& of, std::uint32_t row) { return of.cycle[row].*part; });
+    };
+    put_cycle("rods.cycle.growth_rate", &CellCycle::growth_rate);
+    put_cycle("rods.cycle.division_at", &CellCycle::division_at);
+    put_cycle("rods.cycle.birth_step", &CellCycle::birth_step);
+    put_cycle("rods.cycle.divisions", &CellCycle::divisions);
+    put_cycle("rods.cycle.share", &CellCycle::share);
+    writer.put("rods.founder_bits", static_cast<std::int32_t>(rods.founder_bits()));
 }
 
 Rods take_rods(FieldReader& reader) {
@@ -153,7 +169,7 @@ std::shared_ptr<const Rods> take_fixed_rods(FieldReader& reader) {
 
 }  // namespace
 
-FieldWriter fields_of(const Checkpoint& checkpoint) {
+FieldWriter fields_of(const Checkpoint& checkpoint, const RodsInOrder& rods) {
     FieldWriter writer;
     writer.put_text("scene", checkpoint.scene);
     writer.put("step", checkpoint.state.clock.step);
@@ -166,7 +182,7 @@ FieldWriter fields_of(const Checkpoint& checkpoint) {
     put_walls(writer, checkpoint.state.box.walls());
     put_fixed_rods(writer, checkpoint.state.box);
     if (checkpoint.state.box_force) writer.put("box.force", *checkpoint.state.box_force);
-    put_rods(writer, checkpoint.state.rods);
+    put_rods(writer, rods);
     put_springs(writer, checkpoint.state.springs);
     put_forces(writer, checkpoint.state.previous_forces);
     for (const auto& [name, values] : checkpoint.sums) writer.put_array("sums." + name, values);

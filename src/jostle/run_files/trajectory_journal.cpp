@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <span>
 #include <string_view>
 
 namespace jostle {
@@ -29,13 +30,20 @@ std::string file_header(Content content) {
     return std::string(journal_magic) + writer.bytes();
 }
 
-void put_single(ByteWriter& writer, const std::vector<Vec3>& vectors) {
-    for (const Vec3& v : vectors)
-        writer.put(std::array<float, 3>{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)});
+std::array<float, 3> single(const Vec3& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-void put_single(ByteWriter& writer, const std::vector<double>& values) {
-    for (const double value : values) writer.put(static_cast<float>(value));
+/// What a frame has of rods, one column after the other; write(bytes) is called at the first rank.
+template <class Write>
+void write_rods(const RodsInOrder& rods, Write&& write) {
+    const auto column = [&](auto&& of) { rods.column(of, [&](auto values) { write(bytes_of(values)); }); };
+    column([](const Rods& of, std::uint32_t row) { return of.id[row]; });
+    column([](const Rods& of, std::uint32_t row) { return single(of.centre[row]); });
+    column([](const Rods& of, std::uint32_t row) { return of.image[row]; });
+    column([](const Rods& of, std::uint32_t row) { return single(of.axis[row]); });
+    column([](const Rods& of, std::uint32_t row) { return static_cast<float>(of.length[row]); });
+    column([](const Rods& of, std::uint32_t row) { return static_cast<float>(of.diameter[row]); });
 }
 
 /// The upper half is the offset of copies, in single precision as centres are.
@@ -120,12 +128,7 @@ TrajectoryJournal::Content TrajectoryJournal::require_frames(const std::string& 
     return checked_frames(path, bytes, hash).content;
 }
 
-void TrajectoryJournal::write(const std::string& bytes) {
-    file_.write_all(bytes);
-    checksum_.add(bytes);
-}
-
-void TrajectoryJournal::append(std::uint64_t step, double time, const Box& box, const Rods& rods,
+void TrajectoryJournal::append(std::uint64_t step, double time, const Box& box, const RodsInOrder& rods,
                                const std::vector<Mat3>& stress) {
     const std::size_t needed = content_ == Content::rods ? 0 : rods.size();
     if (stress.size() != needed)
@@ -133,23 +136,39 @@ void TrajectoryJournal::append(std::uint64_t step, double time, const Box& box, 
                           .value = std::to_string(stress.size()) + " rows",
                           .problem = "does not fit the journal",
                           .allowed = std::to_string(needed) + " rows"});
-    frame_.clear();
-    frame_.put(frame_mark);
-    frame_.put(step);
-    frame_.put(time);
-    frame_.put(box.edges());
-    frame_.put(periodic_bits(box));
-    frame_.put(static_cast<std::uint64_t>(rods.size()));
-    frame_.put(checksum(frame_.bytes()));
-    frame_.put_elements(rods.id);
-    put_single(frame_, rods.centre);
-    frame_.put_elements(rods.image);
-    put_single(frame_, rods.axis);
-    put_single(frame_, rods.length);
-    put_single(frame_, rods.diameter);
-    frame_.put_elements(stress);
-    frame_.put(checksum(frame_.bytes()));
-    write(frame_.bytes());
+    ByteWriter header, footer;
+    header.put(frame_mark);
+    header.put(step);
+    header.put(time);
+    header.put(box.edges());
+    header.put(periodic_bits(box));
+    header.put(static_cast<std::uint64_t>(rods.size()));
+    header.put(checksum(header.bytes()));
+    const std::uint64_t begin = file_.size();
+    RunningChecksum frame;
+    const auto write_part = [&](std::string_view bytes) {
+        frame.add(bytes);
+        write(bytes);
+    };
+    try {
+        write_part(header.bytes());
+        write_rods(rods, write_part);
+        write_part(bytes_of(std::span(stress)));
+        footer.put(frame.value());
+        write(footer.bytes());
+    } catch (const DiskError&) {
+        file_.truncate_to(begin);
+        throw;
+    }
+}
+
+void TrajectoryJournal::send_rods(const RodsInOrder& rods) {
+    write_rods(rods, [](std::string_view) {});
+}
+
+void TrajectoryJournal::write(std::string_view bytes) {
+    file_.write_all(bytes);
+    checksum_.add(bytes);
 }
 
 TrajectoryReader::TrajectoryReader(const std::string& path) : file_(path), offset_(file_header_bytes) {

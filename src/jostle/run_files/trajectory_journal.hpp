@@ -3,12 +3,14 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "jostle/disk/byte_buffer.hpp"
 #include "jostle/disk/checksum.hpp"
 #include "jostle/disk/durable_file.hpp"
+#include "jostle/domain/rods_in_order.hpp"
 #include "jostle/math/mat3.hpp"
 #include "jostle/rods/box.hpp"
 #include "jostle/rods/rods.hpp"
@@ -20,11 +22,12 @@ inline constexpr const char* trajectory_journal_name = "trajectory.journal";  //
 /// The frames of a trajectory while the run lasts: an append-only file, from which trajectory.h5 is made.
 ///
 /// Why not HDF5 at once: a kill within a flush, or a full disk, leaves an HDF5 file that no longer opens. Here the
-/// worst is one incomplete frame at the end. Format, little endian: 8 bytes "\x89JTRAJ\r\n", version (u32), content
-/// (u32; 0, or 1: with stress); then frames: "FRAME\0\0\0", step (u64), time (f64), box edges (3 f64), periodic (u64,
-/// bit k for direction k; upper half: offset of copies above along y, f32), N (u64), XXH3 of these (u64); id (N u64),
-/// centre (3N f32), image (3N i32), axis (3N f32), length (N f32), diameter (N f32), with stress that of every rod (9N
-/// f64); XXH3 of the whole frame before it (u64). N may change from frame to frame; steps increase.
+/// worst is one incomplete frame at the end, which readers leave out. Format, little endian: 8 bytes "\x89JTRAJ\r\n",
+/// version (u32), content (u32; 0, or 1: with stress); then frames: "FRAME\0\0\0", step (u64), time (f64), box edges (3
+/// f64), periodic (u64, bit k for direction k; upper half: offset of copies above along y, f32), N (u64), XXH3 of these
+/// (u64); id (N u64), centre (3N f32), image (3N i32), axis (3N f32), length (N f32), diameter (N f32), with stress
+/// that of every rod (9N f64); XXH3 of the whole frame before it (u64). N may change from frame to frame; steps
+/// increase.
 class TrajectoryJournal {
 public:
     enum class Content : std::uint32_t { rods = 0, rods_and_stress = 1 };
@@ -43,10 +46,12 @@ public:
     /// what the frames hold.
     static Content require_frames(const std::string& path, std::uint64_t bytes, std::uint64_t hash);
 
-    /// One frame, by one write. `stress` (N): of every rod, in a journal with stress; else empty. Errors: InputError if
-    /// its size is another; DiskError, after which the journal ends with the frame before.
-    void append(std::uint64_t step, double time, const Box& box, const Rods& rods,
+    /// One frame. `stress` (N): of every rod in the order of ids, in a journal with stress; else empty. Where ranks
+    /// share the rods the first one calls it, and the others `send_rods`. Errors: InputError if the size of `stress` is
+    /// another; DiskError, after which the journal ends with the frame before.
+    void append(std::uint64_t step, double time, const Box& box, const RodsInOrder& rods,
                 const std::vector<Mat3>& stress = {});
+    static void send_rods(const RodsInOrder& rods);
 
     /// Returns when all frames are on the disk. Errors: DiskError.
     void sync() { file_.sync(); }
@@ -56,12 +61,11 @@ public:
 
 private:
     TrajectoryJournal(AppendFile file, Content content) : file_(std::move(file)), content_(content) {}
-    void write(const std::string& bytes);
+    void write(std::string_view bytes);
 
     AppendFile file_;
     Content content_;
     RunningChecksum checksum_;
-    ByteWriter frame_;  // kept for its memory
 };
 
 /// One frame as the journal holds it: rods in single precision, for looking at and analysing, never for going on.

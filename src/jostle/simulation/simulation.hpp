@@ -8,6 +8,7 @@
 
 #include "jostle/contact_problem/contact_solution.hpp"
 #include "jostle/domain/domain.hpp"
+#include "jostle/domain/rods_in_order.hpp"
 #include "jostle/growth/growth.hpp"
 #include "jostle/parallel/thread_choice.hpp"
 #include "jostle/simulation/contact_searches.hpp"
@@ -51,7 +52,12 @@ public:
     std::size_t rods_in_all() const { return domain_.is_shared() ? shared_rods_ : state_.rods.size(); }
     /// The state of all ranks, in the order of ids, for rank 0; for the others one without rods.
     State whole_state() const;
-    /// Ends what `share` has begun: rank 0 has all rods, and the others none, from here on each on its own.
+    /// The same without its rods.
+    State state_without_rods() const;
+    /// The rods of all ranks, for a file.
+    RodsInOrder rods_in_order() const { return {state_.rods, domain_}; }
+    /// Ends what `share` has begun: rank 0 has all rods, and the others none, from here on each on its own. Gives back
+    /// the memory that is kept for speed, also of one process.
     void unite();
     /// The rods of all ranks, in the order of ids: for tests and small systems.
     Rods rods_of_all_ranks() const;

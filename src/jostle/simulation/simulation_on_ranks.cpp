@@ -198,20 +198,31 @@ std::vector<std::uint32_t> Simulation::with_held_rods(std::vector<std::uint32_t>
     return rows;
 }
 
+State Simulation::state_without_rods() const {
+    State state = {state_.box, {}, state_.clock, state_.springs, state_.previous_forces, state_.box_force};
+    if (domain_.is_shared()) {
+        const auto counted = state_.previous_forces.begin() + static_cast<std::ptrdiff_t>(counted_forces_);
+        state.previous_forces = domain_.ranks().gather_at_first(std::vector(state_.previous_forces.begin(), counted));
+        std::vector<NumberedSpring> springs = domain_.ranks().gather_at_first(counted_springs());
+        std::sort(springs.begin(), springs.end(),
+                  [](const NumberedSpring& a, const NumberedSpring& b) { return a.number < b.number; });
+        state.springs.clear();
+        for (const NumberedSpring& numbered : springs) state.springs.push_back(numbered.spring);
+    }
+    sort_by_ids(state.previous_forces);
+    return state;
+}
+
 State Simulation::whole_state() const {
-    if (!domain_.is_shared()) return in_order_of_ids(state_);
-    State whole = {state_.box, domain_.at_first_rank(state_.rods), state_.clock};
-    whole.box_force = state_.box_force;
-    const auto counted = state_.previous_forces.begin() + static_cast<std::ptrdiff_t>(counted_forces_);
-    whole.previous_forces = domain_.ranks().gather_at_first(std::vector(state_.previous_forces.begin(), counted));
-    std::vector<NumberedSpring> springs = domain_.ranks().gather_at_first(counted_springs());
-    std::sort(springs.begin(), springs.end(),
-              [](const NumberedSpring& a, const NumberedSpring& b) { return a.number < b.number; });
-    for (const NumberedSpring& numbered : springs) whole.springs.push_back(numbered.spring);
-    return in_order_of_ids(whole);
+    State whole = state_without_rods();
+    whole.rods = rods_in_order().whole();
+    return whole;
 }
 
 void Simulation::unite() {
+    searches_ = ContactSearches();
+    known_ = KnownMotion();
+    half_way_axis_ = std::vector<Vec3>();
     if (!domain_.is_shared()) return;
     State whole = whole_state();
     rows_change();

@@ -7,13 +7,16 @@
 
 namespace jostle {
 
+void sort_by_ids(std::vector<PreviousForce>& forces) {
+    std::sort(forces.begin(), forces.end(), [](const PreviousForce& a, const PreviousForce& b) {
+        return std::tuple(key_of(a), a.gamma) < std::tuple(key_of(b), b.gamma);
+    });
+}
+
 State in_order_of_ids(const State& state) {
     State ordered = {state.box,     in_order_of_ids(state.rods), state.clock,
                      state.springs, state.previous_forces,       state.box_force};
-    std::sort(ordered.previous_forces.begin(), ordered.previous_forces.end(),
-              [](const PreviousForce& a, const PreviousForce& b) {
-                  return std::tuple(key_of(a), a.gamma) < std::tuple(key_of(b), b.gamma);
-              });
+    sort_by_ids(ordered.previous_forces);
     return ordered;
 }
 

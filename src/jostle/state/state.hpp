@@ -22,7 +22,10 @@ struct State {
     std::optional<Vec3> box_force = {};  ///< of the last step, `force_on_box`; none where no bath changes the box
 };
 
-/// The same state, its rods in the order of ids, its forces in that of (i, j, feature, upper, gamma).
+/// In the order of (i, j, feature, upper, gamma).
+void sort_by_ids(std::vector<PreviousForce>& forces);
+
+/// The same state, its rods in the order of ids, its forces sorted by ids.
 State in_order_of_ids(const State& state);
 
 }  // namespace jostle

@@ -16,7 +16,8 @@ struct Item {
 
 std::string written(const FieldWriter& writer) {
     std::string bytes;
-    for (const std::string_view piece : writer.pieces()) bytes += piece;
+    writer.write([&](std::string_view piece) { bytes += piece; });
+    CHECK(bytes.size() == writer.bytes());
     return bytes;
 }
 
@@ -45,6 +46,10 @@ TEST_CASE("named fields come back by name, in any order") {
     writer.put_array("none", none);
     writer.put_column("items.a", items, [](const Item& item) { return item.a; });
     writer.put_column("items.b", items, [](const Item& item) { return item.b; });
+    writer.put_pieces("pieces", 3, [](const FieldWriter::Sink& sink) {
+        sink("ab");
+        sink("c");
+    });
     writer.put("last", std::array{1.0, 2.0});
     const std::string bytes = written(writer);
     FieldReader reader(bytes);
@@ -57,6 +62,7 @@ TEST_CASE("named fields come back by name, in any order") {
     CHECK(reader.take_array<double>("none").empty());
     CHECK(reader.take_array<double>("numbers") == numbers);
     CHECK(reader.take_text("text") == "a text\n");
+    CHECK(reader.take_text("pieces") == "abc");
     CHECK(reader.take<std::uint64_t>("one") == std::uint64_t{1} << 60);
     CHECK_NOTHROW(reader.require_all_taken());
 }

@@ -11,6 +11,7 @@
 
 #include "jostle/domain/domain.hpp"
 #include "jostle/domain/homes.hpp"
+#include "jostle/domain/rods_in_order.hpp"
 #include "jostle/parallel/thread_ranks.hpp"
 
 using namespace jostle;
@@ -149,7 +150,7 @@ TEST_CASE("the first rank gathers all rods in the order of ids, slice by slice")
         Domain domain(ranks);
         domain.share_out(rods);
         domain.gather(rods, box, 1.0, true);
-        const Rods whole = domain.at_first_rank(rods, 50);
+        const Rods whole = RodsInOrder(rods, domain, 50).whole();
         require(whole.size() == (ranks.rank() == 0 ? all.size() : 0), "all are at the first rank, and nowhere else");
         require(std::is_sorted(whole.id.begin(), whole.id.end()), "they are in the order of ids");
         for (std::size_t row = 0; row < whole.size(); ++row)  // whose ids descend

@@ -50,9 +50,9 @@ Measured measured(const Scene& scene, const State& start, int steps, const Ranks
             for (const auto& row : measurement.last_field()) all.field.push_back(row);
         if (due.checkpoint) {
             const CollisionMoments moments = at_first_rank(simulation.collision_moments(), ranks);
-            const Checkpoint now = checkpoint_of(simulation, measurement.sums(), "scene");
-            all.checkpoints.push_back(packed(now));
-            all.stress_of_rods = stress_per_rod(moments, now.state.rods.id);
+            const RodsInOrder rods = simulation.rods_in_order();
+            all.checkpoints.push_back(packed(checkpoint_without_rods(simulation, measurement.sums(), "scene"), rods));
+            all.stress_of_rods = stress_per_rod(moments, rods.ids());
         }
     }
     simulation.unite();

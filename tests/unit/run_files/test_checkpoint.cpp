@@ -28,8 +28,8 @@ Checkpoint two_rods(std::uint64_t step = 7) {
     checkpoint.state.clock.step = step;
     checkpoint.state.clock.time = 0.1 * static_cast<double>(step);
     checkpoint.state.box = {{1.0 / 3.0, 2.0, 1e30}, {true, false, true}};
-    checkpoint.state.rods.push_back(1, {0.1, -0.0, 1e29}, {0, 0, 1}, 5.0, 1.0);
-    checkpoint.state.rods.push_back(0, {1.0 / 7.0, 2, 3}, {0.6, 0.8, 0}, 0.0, 1.1);
+    checkpoint.state.rods.push_back(0, {0.1, -0.0, 1e29}, {0, 0, 1}, 5.0, 1.0);
+    checkpoint.state.rods.push_back(1, {1.0 / 7.0, 2, 3}, {0.6, 0.8, 0}, 0.0, 1.1);
     checkpoint.state.rods.image[1] = {-1, 2, 2147483647};
     checkpoint.state.rods.speed = {0.5, -2.0};
     checkpoint.state.springs = {{1, 0, 2.5, -0.0, 1.0 / 3.0, 1e-300, {-1, 0, 7}}, {0, 1, 0.0, 0.1, 0.0, 5.0, {}}};
