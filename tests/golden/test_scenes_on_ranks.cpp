@@ -23,9 +23,9 @@ namespace {
 const std::filesystem::path scenes = std::filesystem::path(JOSTLE_TEST_SOURCES) / "golden" / "scenes";
 
 /// What is not ready for several ranks: rods that a fluid couples, other solvers, and what cannot do without these.
-const std::set<std::string> refused = {"hydrodynamic", "hydrodynamic_open",        "pressed_without_noise",
-                                       "pushers",      "solver_adaptive_bb",       "solver_apgd",
-                                       "solver_bbpgd", "solver_minimum_map_newton"};
+const std::set<std::string> refused = {"hydrodynamic", "hydrodynamic_open",         "pressed_without_noise",
+                                       "pushers",      "solver_adaptive_bb",        "solver_apgd",
+                                       "solver_bbpgd", "solver_minimum_map_newton", "swimming_spheres"};
 
 /// As the first rank has it.
 struct Outcome {

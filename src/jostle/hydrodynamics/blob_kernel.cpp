@@ -29,6 +29,11 @@ double series(double x_squared, Coefficient&& coefficient) {
     return sum;
 }
 
+/// Of variance 2 spread: exp(-r^2/(4 spread)) (4 pi spread)^(-3/2).
+double gaussian_of(double spread, double squared_distance) {
+    return std::exp(-0.25 * squared_distance / spread) * std::pow(4.0 * pi * spread, -1.5);
+}
+
 }  // namespace
 
 BlobFlow stokes_flow(double spread, double viscosity, double squared_distance) {
@@ -69,6 +74,40 @@ BlobFlow near_flow(double spread, double splitting, double viscosity, double squ
     const BlobFlow correction = solenoidal_gaussian(wider, viscosity, squared_distance);
     return {narrow.isotropic - wide.isotropic - width * correction.isotropic,
             narrow.radial - wide.radial - width * correction.radial};
+}
+
+double rotlet(double spread, double viscosity, double squared_distance) {
+    const double alpha = 0.5 / std::sqrt(spread), x_squared = alpha * alpha * squared_distance;
+    if (x_squared < series_below * series_below)
+        return value_at_centre(alpha) * alpha * alpha / viscosity *
+               series(x_squared, [](double k) { return 1 / (2 * k + 3); });
+    const double r = std::sqrt(squared_distance), x = alpha * r;
+    return (std::erf(x) - 2.0 * x * std::exp(-x_squared) / std::sqrt(pi)) /
+           (8.0 * pi * viscosity * r * squared_distance);
+}
+
+BlobFlow turning(double spread, double viscosity, double squared_distance) {
+    const BlobFlow flow = solenoidal_gaussian(spread, viscosity, squared_distance);
+    return {0.25 * flow.isotropic, 0.25 * flow.radial};
+}
+
+double near_rotlet(double spread, double splitting, double viscosity, double squared_distance) {
+    const double width = 0.25 / (splitting * splitting), wider = spread + width;
+    // of spectrum exp(-k^2 wider)/(2 viscosity)
+    const double correction = gaussian_of(wider, squared_distance) / (4.0 * wider * viscosity);
+    return rotlet(spread, viscosity, squared_distance) - rotlet(wider, viscosity, squared_distance) -
+           width * correction;
+}
+
+BlobFlow near_turning(double spread, double splitting, double viscosity, double squared_distance) {
+    const double width = 0.25 / (splitting * splitting), wider = spread + width;
+    const BlobFlow narrow = turning(spread, viscosity, squared_distance);
+    const BlobFlow wide = turning(wider, viscosity, squared_distance);
+    // of spectrum (k^2 I - k k) exp(-k^2 wider)/(4 viscosity)
+    const double unit = gaussian_of(wider, squared_distance) / (4.0 * wider * viscosity);
+    const double curvature = 0.25 / wider;
+    return {narrow.isotropic - wide.isotropic - width * unit * (1.0 - curvature * squared_distance),
+            narrow.radial - wide.radial - width * unit * curvature};
 }
 
 }  // namespace jostle

@@ -40,6 +40,20 @@ BlobFlow solenoidal_gaussian(double spread, double viscosity, double squared_dis
 /// H)/(viscosity k^2) with H = (1 + q) exp(-q), q = k^2/(4 splitting^2); `splitting` > 0 (1/length).
 BlobFlow near_flow(double spread, double splitting, double viscosity, double squared_distance);
 
+/// The rotlet of two Gaussians of mean variance `spread`: the flow of a couple T at one is rotlet T x R at the other, R
+/// the vector to there from the couple; and the force F there turns the couple's sphere by rotlet R x F, with the same
+/// number. Spectrum exp(-k^2 spread)/(2 viscosity k^2) under a gradient; 1/(8 pi viscosity r^3) far away. Unit:
+/// 1/(viscosity length^3).
+double rotlet(double spread, double viscosity, double squared_distance);
+
+/// How fast a couple turns another one, angular velocity = flow.of(r, couple): a quarter of `solenoidal_gaussian`.
+/// Units: isotropic 1/(viscosity length^3), radial 1/(viscosity length^5).
+BlobFlow turning(double spread, double viscosity, double squared_distance);
+
+/// Both times (1 - H) in their spectra, as `near_flow`.
+double near_rotlet(double spread, double splitting, double viscosity, double squared_distance);
+BlobFlow near_turning(double spread, double splitting, double viscosity, double squared_distance);
+
 /// A flow tabulated in r^2: cubics through four points each, so that an error of the fourth order in their width is
 /// left.
 class FlowTable {

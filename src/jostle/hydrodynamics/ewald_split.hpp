@@ -25,8 +25,9 @@ struct EwaldSplit {
 struct EwaldLoad {
     double rods = 0.0;
     double blobs_per_rod = 1.0;
-    double longest_line = 0.0;  ///< from the first blob to the last
-    double spread = 0.0;        ///< of a blob; length^2
+    double longest_line = 0.0;                           ///< from the first blob to the last
+    double spread = 0.0;                                 ///< of a blob; length^2
+    std::optional<double> couple_spread = std::nullopt;  ///< of a couple, where couples act; length^2
 };
 
 /// The split of relative error `tolerance`, 1e-6 to 1e-2, with this cutoff, or with that which costs least by a count

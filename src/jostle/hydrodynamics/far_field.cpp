@@ -41,12 +41,13 @@ WaveFactors::WaveFactors(const Vec3& edges, const EwaldSplit& split, double spre
 }
 
 FarField::FarField(const Rods& rods, const Box& box, const RodBlobs& blobs, const EwaldSplit& split,
-                   const WaveFactors& factors, std::shared_ptr<FourierGrid> grid)
-    : blobs_(rods, box, blobs, split), grid_(std::move(grid)), factors_(factors) {}
+                   const WaveFactors& factors, const CoupleFactors* couples, std::shared_ptr<FluidGrids> grids)
+    : blobs_(rods, box, blobs, split), grids_(std::move(grids)), grid_(&grids_->flow), factors_(factors) {
+    if (couples != nullptr) turning_.emplace(*couples, *grids_->turning);
+}
 
-/// From the forces on the grid to the flow there.
+/// From waves of forces to those of the flow.
 void FarField::solve() const {
-    grid_->forward();
     const auto [nx, ny, nz] = grid_->points();
     const std::size_t wx = grid_->waves_along_x(), rows = ny;
     parallel_for_parts(nz, [&](std::size_t z) {
@@ -57,19 +58,34 @@ void FarField::solve() const {
                 v = multiplier == 0.0 ? WaveVector{} : solenoidal(multiplier, factors_.wave(x, y, z), v);
             }
     });
+}
+
+/// From waves of the flow to the velocities of rods.
+void FarField::gather_flow(std::span<LineVector> velocities) const {
+    if (turning_) {
+        turning_->find_turning(grid_->waves);
+        blobs_.gather_turning(turning_->field(), velocities);
+    }
     grid_->backward();
+    blobs_.gather(grid_->field, velocities);
 }
 
 void FarField::add_flow(std::span<const LineVector> forces, std::span<LineVector> velocities) const {
     blobs_.spread(forces, grid_->field);
+    grid_->forward();
+    if (turning_) {
+        blobs_.spread_couples(forces, turning_->field());
+        turning_->add_couples(grid_->waves);
+    }
     solve();
-    blobs_.gather(grid_->field, velocities);
+    gather_flow(velocities);
 }
 
 void FarField::add_axial_flow(const AxialStresslets& stresslets, std::span<LineVector> velocities) const {
     blobs_.spread(stresslets, grid_->field);
+    grid_->forward();
     solve();
-    blobs_.gather(grid_->field, velocities);
+    gather_flow(velocities);
 }
 
 /// A wave and its mirror image share their six normal numbers: those of the place of the first of the two.
@@ -105,8 +121,7 @@ void FarField::draw(const RandomKey& key, double scale) const {
 
 void FarField::add_square_root(const RandomKey& key, double scale, std::span<LineVector> velocities) const {
     draw(key, scale);
-    grid_->backward();
-    blobs_.gather(grid_->field, velocities);
+    gather_flow(velocities);
 }
 
 }  // namespace jostle

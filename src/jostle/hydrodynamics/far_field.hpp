@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "jostle/hydrodynamics/grid_blobs.hpp"
+#include "jostle/hydrodynamics/turning_grid.hpp"
 #include "jostle/math/random.hpp"
 
 namespace jostle {
@@ -33,14 +35,27 @@ private:
     std::array<Waves, 3> along_;
 };
 
+/// The grids that a far field works on.
+struct FluidGrids {
+    FourierGrid flow;
+    std::optional<FourierGrid> turning;  ///< where spheres turn with the fluid
+
+    FluidGrids(const std::array<std::size_t, 3>& points, bool with_turning) : flow(points) {
+        if (with_turning) turning.emplace(points);
+    }
+    bool fit(const std::array<std::size_t, 3>& points, bool with_turning) const {
+        return flow.points() == points && turning.has_value() == with_turning;
+    }
+};
+
 /// The part of M that is summed over waves of a periodic box, on a grid (theory, eq. 7.6): for every wave k != 0
 /// (I - kk/k^2) exp(-k^2 spread) H(k)/(viscosity V k^2), H = (1 + q) exp(-q), q = k^2/(4 splitting^2).
 class FarField {
 public:
-    /// `grid`: of the split's points; what stands on it is overwritten by every call. Holds references to rods, blobs
-    /// and factors.
+    /// `grids`: of the split's points; what stands on them is overwritten by every call. `couples`: of spheres that
+    /// turn with the fluid, or none. Holds references to rods, blobs and factors.
     FarField(const Rods& rods, const Box& box, const RodBlobs& blobs, const EwaldSplit& split,
-             const WaveFactors& factors, std::shared_ptr<FourierGrid> grid);
+             const WaveFactors& factors, const CoupleFactors* couples, std::shared_ptr<FluidGrids> grids);
 
     /// velocities += M_far forces, (N) each.
     void add_flow(std::span<const LineVector> forces, std::span<LineVector> velocities) const;
@@ -52,10 +67,13 @@ public:
 private:
     void solve() const;
     void draw(const RandomKey& key, double scale) const;
+    void gather_flow(std::span<LineVector> velocities) const;
 
     GridBlobs blobs_;
-    std::shared_ptr<FourierGrid> grid_;
+    std::shared_ptr<FluidGrids> grids_;
+    FourierGrid* grid_;  ///< of forces and velocities
     const WaveFactors& factors_;
+    mutable std::optional<TurningGrid> turning_;  ///< of couples and angular velocities
 };
 
 }  // namespace jostle

@@ -99,19 +99,31 @@ void GridBlobs::spread_blobs(std::vector<GridVector>& field, AddRow&& add_row) c
     });
 }
 
-void GridBlobs::spread(std::span<const LineVector> forces, std::vector<GridVector>& field) const {
-    std::vector<GridVector> force(placed_.size());
+/// vector_of(blob, its line) at each blob.
+template <class VectorOf>
+void GridBlobs::spread_vectors(std::vector<GridVector>& field, VectorOf&& vector_of) const {
+    std::vector<GridVector> vector(placed_.size());
     parallel_for(placed_.size(), [&](std::size_t k) {
         const Blob& blob = placed_[k];
-        const BlobLine& line = blobs_.of(blob.row);
-        const LineVector& of_rod = forces[blob.row];
-        const Vec3 f = line.force_weight[blob.number] * of_rod.centre + line.moment_weight[blob.number] * of_rod.moment;
-        force[k].lanes = GridVector::Lanes{f.x, f.y, f.z, 0.0};
+        vector[k] = GridVector(vector_of(blob, blobs_.of(blob.row)));
     });
     spread_blobs(field, [&](std::size_t k, std::size_t y, std::size_t z, GridVector* row, const std::size_t* along_x) {
         const double* const weight = of_blob(weights_, k, 0);
-        const GridVector::Lanes share = force[k].lanes * (of_blob(weights_, k, 1)[y] * of_blob(weights_, k, 2)[z]);
+        const GridVector::Lanes share = vector[k].lanes * (of_blob(weights_, k, 1)[y] * of_blob(weights_, k, 2)[z]);
         for (std::size_t p = 0; p < points_; ++p) row[along_x[p]].lanes += weight[p] * share;
+    });
+}
+
+void GridBlobs::spread(std::span<const LineVector> forces, std::vector<GridVector>& field) const {
+    spread_vectors(field, [&](const Blob& blob, const BlobLine& line) {
+        const LineVector& of_rod = forces[blob.row];
+        return line.force_weight[blob.number] * of_rod.centre + line.moment_weight[blob.number] * of_rod.moment;
+    });
+}
+
+void GridBlobs::spread_couples(std::span<const LineVector> forces, std::vector<GridVector>& field) const {
+    spread_vectors(field, [&](const Blob& blob, const BlobLine& line) {
+        return line.is_sphere() ? cross(rods_.axis[blob.row], forces[blob.row].moment) : Vec3{};
     });
 }
 
@@ -150,6 +162,14 @@ void GridBlobs::gather(const std::vector<GridVector>& field, std::span<LineVecto
         }
         velocities[row].centre += sum.centre;
         velocities[row].moment += across(rods_.axis[row], sum.moment);
+    });
+}
+
+void GridBlobs::gather_turning(const std::vector<GridVector>& field, std::span<LineVector> velocities) const {
+    parallel_for(rows_.size(), [&](std::size_t k) {
+        const std::uint32_t row = rows_[k];
+        if (!blobs_.of(row).is_sphere()) return;
+        velocities[row].moment += cross(velocity_of(placed_index_[first_blob_[k]], field), rods_.axis[row]);
     });
 }
 

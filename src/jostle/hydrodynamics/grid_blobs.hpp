@@ -32,6 +32,11 @@ public:
     /// velocities += what the field moves the rods by.
     void gather(const std::vector<GridVector>& field, std::span<LineVector> velocities) const;
 
+    /// field = sum over spheres of their couples, axis x moment.
+    void spread_couples(std::span<const LineVector> forces, std::vector<GridVector>& field) const;
+    /// The moments of spheres += angular velocity x axis, of angular velocities on the grid.
+    void gather_turning(const std::vector<GridVector>& field, std::span<LineVector> velocities) const;
+
 private:
     struct Blob {
         std::array<std::uint32_t, 3> first;  ///< point of the grid that it is spread over, along each direction
@@ -46,6 +51,8 @@ private:
     Vec3 velocity_of(std::size_t blob, const std::vector<GridVector>& field) const;
     template <class Value>
     Weights weights_of_blobs(Value&& value) const;
+    template <class VectorOf>
+    void spread_vectors(std::vector<GridVector>& field, VectorOf&& vector_of) const;
     template <class AddRow>
     void spread_blobs(std::vector<GridVector>& field, AddRow&& add_row) const;
     /// A blob is spread over no more points than the grid has.

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "jostle/error/refuse.hpp"
+#include "jostle/hydrodynamics/couple_flow.hpp"
 #include "jostle/hydrodynamics/far_field.hpp"
+#include "jostle/hydrodynamics/near_couples.hpp"
 #include "jostle/hydrodynamics/near_field.hpp"
 #include "jostle/hydrodynamics/square_root.hpp"
 #include "jostle/parallel/parallel_for.hpp"
@@ -21,14 +23,23 @@ struct FluidFlows {
     Box box;
     EwaldSplit split;  ///< empty in an unbounded fluid
     PairFlow unbounded;
-    std::optional<PairFlow> near;        ///< in a periodic box
-    std::optional<WaveFactors> factors;  ///< in a periodic box
+    std::optional<PairFlow> near;                 ///< in a periodic box
+    std::optional<WaveFactors> factors;           ///< in a periodic box
+    std::optional<CoupleFlow> couples;            ///< in real space, where spheres turn with the fluid
+    std::optional<CoupleFactors> couple_factors;  ///< of waves, there
 
-    FluidFlows(const RodBlobs& blobs, const Box& around, const EwaldSplit& ewald, double viscosity)
+    FluidFlows(const RodBlobs& blobs, const Box& around, const EwaldSplit& ewald, double viscosity, bool with_couples)
         : lines(blobs.kinds), box(around), split(ewald), unbounded(PairFlow::unbounded(blobs.spread(), viscosity)) {
-        if (split.spread_points == 0) return;
+        const double of_couple = couple_spread(blobs.diameter());
+        if (split.spread_points == 0) {
+            if (with_couples) couples = CoupleFlow::unbounded(blobs.spread(), of_couple, viscosity);
+            return;
+        }
         near = PairFlow::near(blobs.spread(), split.splitting, viscosity, split.cutoff);
         factors.emplace(box.edges(), split, blobs.spread(), viscosity);
+        if (!with_couples) return;
+        couples = CoupleFlow::near(blobs.spread(), of_couple, split.splitting, viscosity, split.cutoff);
+        couple_factors.emplace(box.edges(), split, blobs.spread(), of_couple);
     }
 
     bool fit(const RodBlobs& blobs, const Box& around, const EwaldSplit& ewald) const {
@@ -43,18 +54,23 @@ namespace {
 /// Near and far field of one configuration.
 struct Sums {
     NearField near;
+    std::optional<NearCouples> couples;
     std::optional<FarField> far;
 };
+
+/// Whether couples on spheres are part of an operator.
+enum class Couples { none, of_spheres };
 
 class HydrodynamicOperator final : public MobilityOperator {
 public:
     HydrodynamicOperator(const Rods& rods, const Box& box, RodBlobs blobs, std::shared_ptr<const FluidFlows> flows,
-                         std::shared_ptr<FourierGrid> grid, double noise_change)
+                         std::shared_ptr<FluidGrids> grids, Couples couples, double noise_change)
         : MobilityOperator(rods),
           box_(box),
           blobs_(std::move(blobs)),
           flows_(std::move(flows)),
-          grid_(std::move(grid)),
+          grids_(std::move(grids)),
+          couples_(couples),
           noise_change_(noise_change) {}
 
     void apply(const Forces& forces, Velocities& velocities) const override {
@@ -78,6 +94,7 @@ public:
         if (blobs_.max_blobs() < 2 && stresslets.dipole.empty()) return;  // M does not depend on the axes of spheres
         std::vector<LineVector> moved(rods().size());
         sums().near.add_axial_flow(stresslets, moved);
+        if (sums().couples) sums().couples->add_axial_flow(stresslets, moved);
         if (sums().far) sums().far->add_axial_flow(stresslets, moved);
         add(moved, velocities);
     }
@@ -97,18 +114,27 @@ private:
         parallel_for(pushed.size(), [&](std::size_t i) {
             pushed[i] = {forces.force[i], cross(forces.torque[i], rods().axis[i])};
         });
-        sums().near.apply(pushed, moved);
+        apply_near(pushed, moved);
         if (far) far->add_flow(pushed, moved);
         velocities.resize(rods().size());
         set(moved, velocities);
+    }
+
+    void apply_near(std::span<const LineVector> pushed, std::span<LineVector> moved) const {
+        sums().near.apply(pushed, moved);
+        if (sums().couples) sums().couples->add_flow(pushed, moved);
     }
 
     const Sums& sums() const {
         std::call_once(summed_, [this] {
             std::vector<RodMobility> own;
             for (const BlobLine& line : blobs_.lines()) own.push_back(own_near(line));
-            sums_.reset(new Sums{NearField(rods(), box_, blobs_, flows_->in_real_space(), std::move(own)), {}});
-            if (flows_->near) sums_->far.emplace(rods(), box_, blobs_, flows_->split, *flows_->factors, grid_);
+            sums_.reset(new Sums{NearField(rods(), box_, blobs_, flows_->in_real_space(), std::move(own)), {}, {}});
+            const bool with_couples = couples_ == Couples::of_spheres;
+            if (with_couples) sums_->couples.emplace(rods(), box_, blobs_, *flows_->couples, sums_->near.pairs());
+            if (flows_->near)
+                sums_->far.emplace(rods(), box_, blobs_, flows_->split, *flows_->factors,
+                                   with_couples ? &*flows_->couple_factors : nullptr, grids_);
         });
         return *sums_;
     }
@@ -119,6 +145,10 @@ private:
             return squared < cutoff * cutoff ? flows_->in_real_space().at(squared) : BlobFlow{};
         });
         const RodMobility& rest = line.remainder;
+        if (line.is_sphere() &&
+            couples_ == Couples::of_spheres)  // its couple turns as the sphere alone, without a rest
+            return {blobs.parallel + rest.parallel, blobs.perpendicular + rest.perpendicular,
+                    flows_->couples->turning(0.0).isotropic};
         return {blobs.parallel + rest.parallel, blobs.perpendicular + rest.perpendicular,
                 blobs.rotational + rest.rotational};
     }
@@ -141,7 +171,7 @@ private:
         std::vector<LineVector> scaled(count);
         const auto matrix = [&](std::span<const LineVector> x, std::span<LineVector> result) {
             parallel_for(count, [&](std::size_t i) { scaled[i] = {x[i].centre, length[i] * x[i].moment}; });
-            sums().near.apply(scaled, result);
+            apply_near(scaled, result);
             parallel_for(count, [&](std::size_t i) { result[i].moment *= length[i]; });
         };
         std::vector<LineVector> noise = times_square_root(matrix, std::move(xi), noise_change_);
@@ -187,18 +217,21 @@ private:
     const Box& box_;
     RodBlobs blobs_;
     std::shared_ptr<const FluidFlows> flows_;
-    std::shared_ptr<FourierGrid> grid_;  ///< none in an unbounded fluid
+    std::shared_ptr<FluidGrids> grids_;  ///< none in an unbounded fluid
+    Couples couples_;
     double noise_change_;
     mutable std::once_flag summed_;
     mutable std::unique_ptr<Sums> sums_;
 };
 
-/// Some of the rods, in the same box with the same flows: to them the others do not exist.
+/// Some of the rods, in the same box with the same flows: to them the others do not exist. Contacts press on the
+/// centres of spheres: they exert no couples, and do not feel how spheres turn, so that couples are left out.
 class FluidAmong final : public MobilityAmong {
 public:
     FluidAmong(Rods rods, const Box& box, RodBlobs blobs, std::shared_ptr<const FluidFlows> flows,
-               std::shared_ptr<FourierGrid> grid)
-        : rods_(std::move(rods)), fluid_(rods_, box, std::move(blobs), std::move(flows), std::move(grid), 0.0) {}
+               std::shared_ptr<FluidGrids> grids)
+        : rods_(std::move(rods)),
+          fluid_(rods_, box, std::move(blobs), std::move(flows), std::move(grids), Couples::none, 0.0) {}
 
     void apply(const Forces& forces, Velocities& velocities) const override { fluid_.apply(forces, velocities); }
     void apply_near(const Forces& forces, Velocities& velocities) const override {
@@ -214,7 +247,7 @@ std::unique_ptr<const MobilityAmong> HydrodynamicOperator::among(std::span<const
     if (!flows_->near) return nullptr;  // in an unbounded fluid all is near
     RodBlobs blobs{blobs_.kinds, {}};
     for (const std::uint32_t row : rows) blobs.line_of.push_back(blobs_.line_of[row]);
-    return std::make_unique<FluidAmong>(reordered(rods(), rows), box_, std::move(blobs), flows_, grid_);
+    return std::make_unique<FluidAmong>(reordered(rods(), rows), box_, std::move(blobs), flows_, grids_);
 }
 
 void require_known_box(const Rods& rods, const Box& box) {
@@ -232,40 +265,45 @@ void require_known_box(const Rods& rods, const Box& box) {
 
 }  // namespace
 
-HydrodynamicMobility::HydrodynamicMobility(double viscosity, double tolerance, std::optional<double> cutoff)
-    : viscosity_(viscosity), tolerance_(tolerance), cutoff_(cutoff) {}
+HydrodynamicMobility::HydrodynamicMobility(double viscosity, double tolerance, std::optional<double> cutoff,
+                                           SpheresTurn spheres)
+    : viscosity_(viscosity), tolerance_(tolerance), cutoff_(cutoff), spheres_(spheres) {}
 
 std::unique_ptr<const MobilityOperator> HydrodynamicMobility::at(const Rods& rods, const Box& box) const {
     require_known_box(rods, box);
     std::shared_ptr<const FluidFlows> flows;
-    std::shared_ptr<FourierGrid> grid;
+    std::shared_ptr<FluidGrids> grids;
     {
         const std::lock_guard guard(lock_);
         flows = last_;
-        grid = std::move(spare_grid_);
+        grids = std::move(spare_grids_);
     }
     RodBlobs blobs = blobs_of(rods, viscosity_, flows ? flows->lines : nullptr);
+    const bool with_couples = spheres_ == SpheresTurn::with_fluid && blobs.any_sphere();
     EwaldSplit split;
     if (box.is_periodic() && rods.size() > 0)
-        split = ewald_split(tolerance_, cutoff_, box,
-                            {.rods = static_cast<double>(rods.size()),
-                             .blobs_per_rod = static_cast<double>(blobs.max_blobs()),
-                             .longest_line = 2.0 * blobs.longest_half(),
-                             .spread = blobs.spread()});
+        split = ewald_split(
+            tolerance_, cutoff_, box,
+            {.rods = static_cast<double>(rods.size()),
+             .blobs_per_rod = static_cast<double>(blobs.max_blobs()),
+             .longest_line = 2.0 * blobs.longest_half(),
+             .spread = blobs.spread(),
+             .couple_spread = with_couples ? std::optional(couple_spread(blobs.diameter())) : std::nullopt});
     if (!flows || !flows->fit(blobs, box, split)) {
-        flows = std::make_shared<const FluidFlows>(blobs, box, split, viscosity_);
+        flows = std::make_shared<const FluidFlows>(blobs, box, split, viscosity_, with_couples);
         const std::lock_guard guard(lock_);
         last_ = flows;
     }
     if (!flows->near)
-        grid.reset();
-    else if (!grid || grid.use_count() > 1 || grid->points() != split.grid)  // another operator is at work on it
-        grid = std::make_shared<FourierGrid>(split.grid);
+        grids.reset();
+    else if (!grids || grids.use_count() > 1 || !grids->fit(split.grid, with_couples))  // another is at work on them
+        grids = std::make_shared<FluidGrids>(split.grid, with_couples);
     {
         const std::lock_guard guard(lock_);
-        spare_grid_ = grid;
+        spare_grids_ = grids;
     }
-    return std::make_unique<HydrodynamicOperator>(rods, box, std::move(blobs), std::move(flows), std::move(grid),
+    return std::make_unique<HydrodynamicOperator>(rods, box, std::move(blobs), std::move(flows), std::move(grids),
+                                                  with_couples ? Couples::of_spheres : Couples::none,
                                                   std::min(tolerance_, 1e-3));
 }
 

@@ -13,7 +13,11 @@ namespace jostle {
 inline constexpr std::size_t max_rods_in_open_box = 2000;
 
 struct FluidFlows;
-class FourierGrid;
+struct FluidGrids;
+
+/// Whether spheres turn with the fluid around them, and stir it by turning. Nothing else depends on the direction of a
+/// sphere, so that those that neither swim nor are aligned need not.
+enum class SpheresTurn { not_with_fluid, with_fluid };
 
 /// Rods that move each other through the fluid (theory, section 7): M = W^T G W + the remainders of the rods' own
 /// mobilities, with blobs of force along each rod, in an unbounded fluid or in a box that is periodic along all
@@ -26,7 +30,8 @@ public:
     /// `tolerance`: relative error of velocities in a periodic box, 1e-6 to 1e-2, against exact sums over images;
     /// `cutoff` of the sum in real space (a length), or none: that which costs least.
     explicit HydrodynamicMobility(double viscosity, double tolerance = 1e-3,
-                                  std::optional<double> cutoff = std::nullopt);
+                                  std::optional<double> cutoff = std::nullopt,
+                                  SpheresTurn spheres = SpheresTurn::not_with_fluid);
 
     /// Errors: InputError for a box that is periodic along some directions only, for more than `max_rods_in_open_box`
     /// rods in an open one, and for rods that `blobs_of` refuses. The operator sets up its sums when first applied.
@@ -35,9 +40,10 @@ public:
 private:
     double viscosity_, tolerance_;
     std::optional<double> cutoff_;
+    SpheresTurn spheres_;
     mutable std::mutex lock_;  ///< of what was last made
     mutable std::shared_ptr<const FluidFlows> last_;
-    mutable std::shared_ptr<FourierGrid> spare_grid_;  ///< that of the last operator, which the next may take over
+    mutable std::shared_ptr<FluidGrids> spare_grids_;  ///< those of the last operator, which the next may take over
 };
 
 }  // namespace jostle

@@ -6,6 +6,7 @@
 #include "jostle/contact/contacts.hpp"
 #include "jostle/hydrodynamics/axial_blob.hpp"
 #include "jostle/hydrodynamics/line_vector.hpp"
+#include "jostle/hydrodynamics/near_pairs.hpp"
 #include "jostle/hydrodynamics/pair_flow.hpp"
 #include "jostle/hydrodynamics/rod_blobs.hpp"
 #include "jostle/rods/box.hpp"
@@ -28,7 +29,7 @@ public:
     /// velocities += those of the rods in the flow of stresslets on all other rods.
     void add_axial_flow(const AxialStresslets& stresslets, std::span<LineVector> velocities) const;
 
-    std::size_t pairs() const { return pairs_.size(); }
+    NearPairs pairs() const { return {pairs_, begin_, incidence_, others_}; }
 
 private:
     /// A symmetric 3 x 3 matrix: xx, xy, xz, yy, yz, zz.

@@ -26,6 +26,7 @@ struct BlobLine {
     RodMobility own;                    ///< of a spherocylinder alone in an unbounded fluid (theory, eq. 2.19)
     RodMobility remainder;              ///< own less that of the line of blobs, >= 0
 
+    bool is_sphere() const { return place.size() == 1; }
     double half() const { return place.back(); }  ///< from the centre to the last blob
 };
 
@@ -46,6 +47,8 @@ struct RodBlobs {
     const BlobLine& of(std::size_t row) const { return kinds->lines[line_of[row]]; }
     const std::vector<BlobLine>& lines() const { return kinds->lines; }
     double spread() const { return kinds->spread; }
+    double diameter() const { return kinds->diameter; }
+    bool any_sphere() const { return !lines().empty() && lines().front().is_sphere(); }
     std::size_t max_blobs() const;
     double longest_half() const { return lines().empty() ? 0.0 : lines().back().half(); }
 };

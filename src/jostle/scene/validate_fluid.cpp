@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-
 #include "jostle/error/refuse.hpp"
 #include "jostle/hydrodynamics/hydrodynamic_mobility.hpp"
 #include "jostle/hydrodynamics/rod_blobs.hpp"
@@ -55,16 +53,7 @@ void check_box_of_fluid(const Scene& scene) {
                "Use \"auto\"");
 }
 
-/// Of the shortest rod.
-void check_swimming_length(const Scene& scene, double length) {
-    if (swims(scene) && length == 0.0)
-        refuse("motion.self_propulsion", text(scene.motion.self_propulsion),
-               fmt::format("{} the flow does not turn spheres, so that they would swim wrongly", with_fluid),
-               "0, or rods.length > 0", without_fluid);
-}
-
 void check_motions(const Scene& scene) {
-    if (!rods_are_given(scene)) check_swimming_length(scene, scene.rods.length);
     if (has_schedule(scene))
         refuse(names_of_schedule(scene), "",
                fmt::format(
@@ -97,11 +86,6 @@ void validate_fluid(const Scene& scene) {
     Mistakes mistakes;
     for (const auto check : {check_sizes, check_box_of_fluid, check_motions}) mistakes.look([&] { check(scene); });
     mistakes.refuse_any();
-}
-
-void validate_swimmers_in_fluid(const Scene& scene, const Rods& rods) {
-    if (scene.mobility.model != MobilityModel::hydrodynamic || rods.size() == 0) return;
-    check_swimming_length(scene, *std::min_element(rods.length.begin(), rods.length.end()));
 }
 
 }  // namespace jostle

@@ -16,7 +16,6 @@
 #include "jostle/scene/scene_walls.hpp"
 #include "jostle/scene/step_limits.hpp"
 #include "jostle/scene/time_step.hpp"
-#include "jostle/scene/validate_fluid.hpp"
 #include "jostle/scene/validate_scene.hpp"
 #include "jostle/scene_file/rods_file.hpp"
 #include "jostle/scene_file/rods_of_run.hpp"
@@ -120,7 +119,6 @@ void require_fit(const Scene& scene, const Rods& rods, const std::string& giver)
     validate_walls(scene, volume, *std::max_element(rods.length.begin(), rods.length.end()), *thickest);
     validate_sheared_box(scene, volume, longest_of(rods));
     validate_growth(scene, *thickest);
-    validate_swimmers_in_fluid(scene, rods);
     validate_contact_range(scene, longest_of(rods));
     require_near(rods, box_of(scene, rods), giver);
 }

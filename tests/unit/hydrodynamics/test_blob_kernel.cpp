@@ -32,6 +32,18 @@ BlobFlow from_spectrum(double r, Spectrum&& spectrum) {
     return sum;
 }
 
+/// The same of the rotlet, -(1/r) d/dr of the scalar whose spectrum this is.
+template <class Spectrum>
+double rotlet_from_spectrum(double r, Spectrum&& spectrum) {
+    const double step = 1e-3;
+    double sum = 0.0;
+    for (int n = 1; n < 60000; ++n) {
+        const double k = step * n, x = k * r;
+        sum += step * std::pow(k, 4) * spectrum(k) * (std::sin(x) - x * std::cos(x)) / (x * x * x) / (2.0 * pi * pi);
+    }
+    return sum;
+}
+
 void check_equal(const BlobFlow& a, const BlobFlow& b, double relative) {
     CHECK(a.isotropic == doctest::Approx(b.isotropic).epsilon(relative));
     CHECK(a.radial == doctest::Approx(b.radial).epsilon(relative));
@@ -56,6 +68,31 @@ TEST_CASE("flows of blobs are the Fourier integrals of their spectra") {
                                   }),
                     1e-6);
     }
+}
+
+TEST_CASE("flows of couples are the Fourier integrals of their spectra") {
+    constexpr double splitting = 1.3;
+    const auto near = [](double k) {
+        const double q = 0.25 * k * k / (splitting * splitting);
+        return std::exp(-k * k * spread) * (1.0 - (1.0 + q) * std::exp(-q)) / viscosity;
+    };
+    for (const double r : {0.3, 0.9, 2.5}) {
+        CAPTURE(r);
+        const double squared = r * r;
+        CHECK(rotlet(spread, viscosity, squared) == doctest::Approx(rotlet_from_spectrum(r, [](double k) {
+                                                        return 0.5 * std::exp(-k * k * spread) / (viscosity * k * k);
+                                                    })).epsilon(1e-6));
+        CHECK(
+            near_rotlet(spread, splitting, viscosity, squared) ==
+            doctest::Approx(rotlet_from_spectrum(r, [&](double k) { return 0.5 * near(k) / (k * k); })).epsilon(1e-6));
+        check_equal(turning(spread, viscosity, squared),
+                    from_spectrum(r, [](double k) { return 0.25 * std::exp(-k * k * spread) / viscosity; }), 1e-6);
+        check_equal(near_turning(spread, splitting, viscosity, squared),
+                    from_spectrum(r, [&](double k) { return 0.25 * near(k); }), 1e-6);
+    }
+    const double joint = 4.0 * spread;  // of series and closed form
+    CHECK(rotlet(spread, viscosity, joint * (1 - 1e-13)) ==
+          doctest::Approx(rotlet(spread, viscosity, joint)).epsilon(1e-11));
 }
 
 TEST_CASE("flows do not jump where series give way to closed forms") {

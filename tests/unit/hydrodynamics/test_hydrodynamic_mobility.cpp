@@ -3,13 +3,13 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/hydrodynamics/hydrodynamic_mobility.hpp"
 #include "jostle/math/rotation.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/rods/space_filling_order.hpp"
+#include "random_rods.hpp"
 
 using namespace jostle;
 
@@ -17,64 +17,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr std::uint64_t seed = 20261123;
-
-class Chance {
-public:
-    Vec3 vector() { return {normal_(generator_), normal_(generator_), normal_(generator_)}; }
-    double uniform() { return uniform_(generator_); }
-    /// Rods anywhere: they may overlap.
-    Rods rods(std::size_t count, double length, const Vec3& edges) {
-        Rods rods;
-        for (std::size_t i = 0; i < count; ++i)
-            rods.push_back(i, {edges.x * uniform(), edges.y * uniform(), edges.z * uniform()}, normalised(vector()),
-                           length, 1.0);
-        return rods;
-    }
-    Forces forces(const Rods& rods) {
-        Forces forces(rods.size());
-        for (std::size_t i = 0; i < rods.size(); ++i) {
-            forces.force[i] = vector();
-            const Vec3 torque = vector();
-            forces.torque[i] = torque - dot(torque, rods.axis[i]) * rods.axis[i];
-        }
-        return forces;
-    }
-
-private:
-    std::mt19937_64 generator_{seed};
-    std::normal_distribution<double> normal_;
-    std::uniform_real_distribution<double> uniform_;
-};
-
-Velocities moved(const Mobility& mobility, const Rods& rods, const Box& box, const Forces& forces) {
-    Velocities velocities;
-    mobility.at(rods, box)->apply(forces, velocities);
-    return velocities;
-}
-
-double power(const Velocities& velocities, const Forces& forces) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < forces.size(); ++i)
-        sum += dot(velocities.linear[i], forces.force[i]) + dot(velocities.angular[i], forces.torque[i]);
-    return sum;
-}
-
-/// Root of the mean squares of the differences over that of the velocities; of angular velocities as well.
-std::array<double, 2> errors(const Velocities& found, const Velocities& exact) {
-    std::array<double, 2> wrong{}, all{};
-    for (std::size_t i = 0; i < exact.size(); ++i) {
-        wrong[0] += squared_norm(found.linear[i] - exact.linear[i]);
-        wrong[1] += squared_norm(found.angular[i] - exact.angular[i]);
-        all[0] += squared_norm(exact.linear[i]);
-        all[1] += squared_norm(exact.angular[i]);
-    }
-    return {std::sqrt(wrong[0] / all[0]), std::sqrt(wrong[1] / all[1])};
-}
-
-bool same_bits(const Velocities& a, const Velocities& b) {
-    return std::equal(a.linear.begin(), a.linear.end(), b.linear.begin()) &&
-           std::equal(a.angular.begin(), a.angular.end(), b.angular.begin());
-}
 
 const Box open{{20, 20, 20}, {false, false, false}};
 
@@ -98,7 +40,7 @@ TEST_CASE("a sphere in a cubic box of edge B: 3 pi mu D M = 1 - 2.83729748 x + (
 }
 
 TEST_CASE("where a periodic sum is split does not matter, and its error is within the tolerance") {
-    Chance chance;
+    Chance chance(seed);
     const Box box{{14, 15, 16}};
     for (const double length : {0.0, 5.0}) {
         const Rods rods = chance.rods(12, length, box.edges());
@@ -118,7 +60,7 @@ TEST_CASE("where a periodic sum is split does not matter, and its error is withi
 }
 
 TEST_CASE("M is symmetric to rounding, and positive, for rods that overlap") {
-    Chance chance;
+    Chance chance(seed);
     for (const bool periodic : {true, false}) {
         const Box box{{9, 10, 11}, {periodic, periodic, periodic}};
         const Rods rods = chance.rods(10, 5.0, box.edges());
@@ -148,7 +90,7 @@ TEST_CASE("M is symmetric to rounding, and positive, for rods that overlap") {
 }
 
 TEST_CASE("a box that grows becomes an unbounded fluid, as 1/edge") {
-    Chance chance;
+    Chance chance(seed);
     Rods rods = chance.rods(4, 3.0, {5, 5, 5});
     Forces forces = chance.forces(rods);
     forces.force[3] = -(forces.force[0] + forces.force[1] + forces.force[2]);  // without it: as 1/edge; with it faster
@@ -165,7 +107,7 @@ TEST_CASE("a box that grows becomes an unbounded fluid, as 1/edge") {
 
 // A_ll = D^T M D of a contact.
 TEST_CASE("relative mobility of two points is what equal and opposite forces there open them by") {
-    Chance chance;
+    Chance chance(seed);
     const HydrodynamicMobility model(0.7);
     for (const double length : {0.0, 5.0})
         for (int trial = 0; trial < 20; ++trial) {
@@ -195,7 +137,7 @@ TEST_CASE("relative mobility of two points is what equal and opposite forces the
 // Theory, eq. (7.8), with kT = 1: sum over rods j of the derivative of column T_j of M by a turn of j about the same
 // axis. In the box the rod's own images are left out, which change angular velocities by 1 % here.
 TEST_CASE("the thermal drift is div M: against central differences over all turns of all rods") {
-    Chance chance;
+    Chance chance(seed);
     for (const bool periodic : {false, true}) {
         const Box box{{30, 30, 30}, {periodic, periodic, periodic}};
         const Rods rods = chance.rods(3, 5.0, {6, 6, 6});
@@ -229,7 +171,7 @@ TEST_CASE("the thermal drift is div M: against central differences over all turn
 // mean of the squares of their deviations, in standard errors, is 1 +- sqrt(2/24): 5 of these are a false alarm in 1e5,
 // as the vectors are not quite independent.
 TEST_CASE("noise has the covariance M") {
-    Chance chance;
+    Chance chance(seed);
     constexpr int vectors = 24, samples = 2500;
     for (const bool periodic : {false, true}) {
         const Box box{{9, 10, 11}, {periodic, periodic, periodic}};
@@ -262,7 +204,7 @@ TEST_CASE("noise has the covariance M") {
 }
 
 TEST_CASE("flow, noise and drift have the same bits for any number of threads and any order of rows") {
-    Chance chance;
+    Chance chance(seed);
     for (const bool periodic : {true, false}) {
         const Box box{{22, 20, 18}, {periodic, periodic, periodic}};
         const Rods rods = chance.rods(600, 2.0, box.edges());
@@ -309,7 +251,7 @@ TEST_CASE("boxes in which flows are not known are refused") {
         }
         return "";
     };
-    Chance chance;
+    Chance chance(seed);
     const Rods few = chance.rods(3, 1.0, {9, 9, 9}), many = chance.rods(max_rods_in_open_box + 1, 0.0, {99, 99, 99});
     CHECK(refused(few, {{9, 9, 9}, {true, true, false}}) == "box.periodic");
     CHECK(refused(few, {{9, 9, 9}, {false, false, false}}) == "");

@@ -36,11 +36,13 @@ TEST_CASE("with a fluid, what is known passes") {
     CHECK(refused_key([](Scene& s) { s.mobility.tolerance = 1e-6; }) == "");
     CHECK(refused_key([](Scene& s) { s.mobility.cutoff = 3.0; }) == "");
     CHECK(refused_key([](Scene& s) { s.solver.method = SolverMethod::bbpgd; }) == "");
-    for (const double dipole : {0.0, 2.0, -2.0})
-        CHECK(refused_key([&](Scene& s) {
-                  s.motion.self_propulsion = 1.0;
-                  s.motion.force_dipole = dipole;
-              }) == "");
+    for (const double length : {5.0, 0.0})
+        for (const double dipole : {0.0, 2.0, -2.0})
+            CHECK(refused_key([&](Scene& s) {
+                      s.rods.length = length;
+                      s.motion.self_propulsion = 1.0;
+                      s.motion.force_dipole = dipole;
+                  }) == "");
 }
 
 TEST_CASE("with a fluid, what is not known is refused, one line each") {
@@ -55,10 +57,6 @@ TEST_CASE("with a fluid, what is not known is refused, one line each") {
     CHECK(refused_key([](Scene& s) { s.mobility.cutoff = 20.5; }) == "mobility.cutoff");
     CHECK(refused_key([](Scene& s) { s.mobility.tolerance = 1e-7; }) == "mobility.tolerance");
     CHECK(refused_key([](Scene& s) { s.motion.force_dipole = 0.1; }) == "motion.force_dipole");  // nothing swims
-    CHECK(refused_key([](Scene& s) {
-              s.motion.self_propulsion = 0.1;
-              s.rods.length = 0.0;
-          }) == "motion.self_propulsion");
     CHECK(refused_key([](Scene& s) { s.schedule.kT.push_back({5.0, 2.0}); }) == "schedule.kT");
     CHECK(refused_key([](Scene& s) { s.springs.file = "springs.csv"; }) == "springs.file");
     CHECK(refused_key([](Scene& s) { s.contact.model = ContactModel::wca; }) == "contact.model");
@@ -70,11 +68,13 @@ TEST_CASE("with a fluid, what is not known is refused, one line each") {
 }
 
 TEST_CASE("keys of the fluid are not used without it") {
-    CHECK(refused_key([](Scene& s) {
-              s.mobility.model = MobilityModel::capsule;
-              s.motion.self_propulsion = 1.0;
-              s.motion.force_dipole = 1.0;
-          }) == "motion.force_dipole");
+    for (const double length : {5.0, 0.0})
+        CHECK(refused_key([&](Scene& s) {
+                  s.rods.length = length;
+                  s.mobility.model = MobilityModel::capsule;
+                  s.motion.self_propulsion = 1.0;
+                  s.motion.force_dipole = 1.0;
+              }) == "motion.force_dipole");
     CHECK(refused_key([](Scene& s) {
               s.mobility.model = MobilityModel::capsule;
               s.mobility.tolerance = 1e-4;
