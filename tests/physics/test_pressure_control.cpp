@@ -144,24 +144,34 @@ TEST_CASE("forces move a box by so much in a step and no more, and the step tell
     CHECK_FALSE(edges_under_pressure(state, state.rods.size(), control, kT, context).held_back);
 }
 
-TEST_CASE("a piston goes by its force less its load, of the last step or of the same") {
-    const PressureControl control = {
+TEST_CASE("a piston goes by its load and noise, and contact forces push it in the same step") {
+    PressureControl control = {
         .external = 0.5, .moves = PressureControl::Moves::plane, .piston = 2, .mobility = 0.1, .rate = 2.0};
     State state;
     state.box = Box{{2, 3, 4}, {true, true, false}, {{false, false, true}}};
     const StepContext context = {1, 7, 0.01};
-    state.box_force = Vec3{0, 0, 5};
-    const Vec3 moved = edges_under_pressure(state, state.rods.size(), control, 1e-40, context).edges;
-    CHECK(moved.x == 2.0);
-    CHECK(moved.y == 3.0);
-    CHECK(moved.z == doctest::Approx(4.0 + 0.1 * (5.0 - 0.5 * 6.0) * 0.01).epsilon(1e-14));
+    const double load = 0.5 * 6.0, dt = context.time_step;
+    const EdgesUnderPressure moved = edges_under_pressure(state, state.rods.size(), control, 1.0, context);
+    CHECK(moved.edges.x == 2.0);
+    CHECK(moved.edges.y == 3.0);
+    CHECK(moved.piston.body == fixed_body(5));
+    CHECK(moved.piston.drift == doctest::Approx(-0.1 * load * dt).epsilon(1e-14));
+    CHECK(moved.edges.z == doctest::Approx(4.0 + moved.piston.displacement).epsilon(1e-14));
+    const double noise = moved.piston.displacement - moved.piston.drift;
+    const EdgesUnderPressure colder = edges_under_pressure(state, state.rods.size(), control, 0.25, context);
+    CHECK(noise != 0.0);
+    CHECK(colder.piston.displacement - colder.piston.drift == doctest::Approx(0.5 * noise).epsilon(1e-12));
+    const BoxColumn pushed = opening_of(state.box, control);
+    CHECK(pushed.plane == fixed_body(5));
+    CHECK(pushed.mobility == 0.1);
+    CHECK(opened(state.box.edges(), control, pushed.mobility * load, dt).z ==
+          doctest::Approx(4.0 - moved.piston.drift).epsilon(1e-14));
     // Without thermal motion at its full speed, and a force of the load stops it within the step.
-    const Vec3 pressed = edges_under_pressure(state, state.rods.size(), control, 0.0, context).edges;
-    CHECK(pressed.z == doctest::Approx(4.0 - 0.01 * 2.0).epsilon(1e-14));
+    control.mobility = 0.0;
+    const EdgesUnderPressure pressed = edges_under_pressure(state, state.rods.size(), control, 0.0, context);
+    CHECK_FALSE(pressed.piston.body);
+    CHECK(pressed.edges.z == doctest::Approx(4.0 - 0.01 * 2.0).epsilon(1e-14));
     const BoxColumn opening = opening_of(state.box, control);
     CHECK(opening.plane == fixed_body(5));
-    CHECK(opened(pressed, control, opening.mobility * 0.5 * 6.0, 0.01).z == doctest::Approx(4.0).epsilon(1e-14));
-    StepReport report;
-    report.wall_force[5] = 7.0;
-    CHECK(force_on_box(report, control).z == 7.0);
+    CHECK(opened(pressed.edges, control, opening.mobility * load, dt).z == doctest::Approx(4.0).epsilon(1e-14));
 }

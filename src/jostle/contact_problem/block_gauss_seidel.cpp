@@ -38,7 +38,8 @@ BlockGaussSeidel<Real>::BlockGaussSeidel(const ContactProblem& problem, double t
       b_(problem.constant()),
       start_(start),
       activation_threshold_(activation_tolerances * tolerance / problem.time_step()),
-      still_(still_part * tolerance / problem.time_step()) {
+      still_(still_part * tolerance / problem.time_step()),
+      pair_colours_(problem.matrix().box().plane) {
     extend();
 }
 
@@ -48,11 +49,15 @@ void BlockGaussSeidel<Real>::extend() {
     const Domain& domain = problem_.domain();
     const auto& new_pairs = pair_colours_.extend(matrix_.contact_matrix(), domain);
     colours_.resize(new_pairs.size());
-    for (std::size_t k = 0; k < colours_.size(); ++k)
+    for (std::size_t k = 0; k < colours_.size(); ++k) {
+        std::span<const ContactPair> others = new_pairs[k];
+        std::vector<ContactPair> beside_plane;
+        if (matrix_.box().plane) others = beside_plane = append_at_plane(colours_[k], others);
         if (domain.is_shared())
-            append_between_ranks(colours_[k], new_pairs[k]);
+            append_between_ranks(colours_[k], others);
         else
-            append(colours_[k].here, new_pairs[k]);
+            append(colours_[k].here, others);
+    }
     if (!domain.is_shared()) return;
     std::vector<ContactPair> between;
     for (const Colour& colour : colours_) between.insert(between.end(), colour.between.begin(), colour.between.end());
@@ -63,6 +68,7 @@ template <class Real>
 void BlockGaussSeidel<Real>::begin_again() {
     parallel_for(velocities_.size(), [&](std::size_t local) { velocities_[local] = {}; });
     former_velocities_.clear();
+    plane_velocity_ = 0.0;
     const auto begin = [this](auto& group) {
         parallel_for(group.items.size(), [&](std::size_t k) {
             this->begin_again(group.items[k]);
@@ -74,6 +80,7 @@ void BlockGaussSeidel<Real>::begin_again() {
     for (Colour& colour : colours_) {
         for_groups(colour.here, begin);
         for_groups(colour.elsewhere, begin);
+        colour.at_plane.for_each([this](ScalarBlock<Real>& contact) { begin_again(contact); });
     }
 }
 
@@ -97,6 +104,20 @@ void BlockGaussSeidel<Real>::append(Kinds& contacts, std::span<const ContactPair
     for (const ContactPair& pair : new_pairs) (pair.count == 1 ? singles : others).push_back(pair);
     append(contacts.singles, singles, [this](const ContactPair& pair) { return contact_of(pair); });
     append(contacts.pairs, others, [this](const ContactPair& pair) { return pair_of(pair); });
+}
+
+/// Takes those with the plane that contacts push, and returns the others.
+template <class Real>
+std::vector<ContactPair> BlockGaussSeidel<Real>::append_at_plane(Colour& colour,
+                                                                 std::span<const ContactPair> new_pairs) {
+    std::vector<ContactPair> others;
+    for (const ContactPair& pair : new_pairs)
+        if (matrix_.contact_matrix().contacts().contact[pair.first].i == matrix_.box().plane)
+            colour.at_plane.push_back(contact_of(pair));
+        else
+            others.push_back(pair);
+    colour.at_plane.tell_ranks(problem_.domain().ranks());
+    return others;
 }
 
 template <class Real>
@@ -138,6 +159,7 @@ double BlockGaussSeidel<Real>::sweep(double omega, SweepOver over) {
         bring_velocities(colour);
         for_groups(colour.here, pass);
         for_groups(colour.elsewhere, pass);
+        largest = std::max(largest, sweep_at_plane(colour, by));
     }
     if (all) {
         all_messages_.bring(std::span(velocities_));
@@ -148,6 +170,13 @@ double BlockGaussSeidel<Real>::sweep(double omega, SweepOver over) {
         }
     }
     return problem_.domain().ranks().largest(largest);
+}
+
+/// Not over-relaxed: where one of many forces ends, a common factor would be 1.
+template <class Real>
+double BlockGaussSeidel<Real>::sweep_at_plane(Colour& colour, const Relaxation& by) {
+    const LocalRods<Real> local_rods{matrix_.rods().data(), velocities_.data()};
+    return colour.at_plane.sweep(plane_velocity_, matrix_.box().mobility, by, local_rods, problem_.domain().ranks());
 }
 
 template <class Real>
@@ -195,9 +224,11 @@ void BlockGaussSeidel<Real>::carry_on_velocities(double beta) {
 }
 
 template <class Real>
-void BlockGaussSeidel<Real>::read_velocities(std::span<ContactVelocity> velocities) const {
+void BlockGaussSeidel<Real>::read_velocities(ContactSolution& solution) const {
+    std::vector<ContactVelocity>& velocities = solution.velocities;
     parallel_for(velocities.size(), [&](std::size_t local) { velocities[local] = velocities_[local].velocity(); });
     problem_.fetch_velocities(velocities);
+    solution.box_rate = plane_velocity_;
 }
 
 template <class Real>
@@ -218,6 +249,7 @@ void BlockGaussSeidel<Real>::refresh(ContactSolution& solution) {
             former_velocities_[local].lanes += exact.lanes - velocities_[local].lanes;
         velocities_[local] = exact;
     });
+    solution.box_rate = plane_velocity_ = problem_.box_rate(solution.gamma);
     if (!problem_.domain().is_shared()) return;
     problem_.fetch_velocities(solution.velocities);  // the forces on ghosts are not all known here
     parallel_for(velocities_.size(), [&](std::size_t local) {
@@ -336,6 +368,7 @@ void BlockGaussSeidel<Real>::for_all_forces(Body&& body) {
     for (Colour& colour : colours_) {
         for_groups(colour.here, pass);
         for_groups(colour.elsewhere, pass);
+        colour.at_plane.for_each([&](ScalarBlock<Real>& contact) { for_forces(contact, body); });
     }
 }
 

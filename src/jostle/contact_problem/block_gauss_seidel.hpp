@@ -10,6 +10,7 @@
 #include "jostle/contact_problem/contact_blocks.hpp"
 #include "jostle/contact_problem/contact_problem.hpp"
 #include "jostle/contact_problem/pair_colours.hpp"
+#include "jostle/contact_problem/plane_contacts.hpp"
 
 namespace jostle {
 
@@ -21,6 +22,9 @@ enum class SweepOver { all, active };
 /// Pairs are coloured, so that no two of a colour share a rod. A sweep over all finds those that are active: that push
 /// or may soon. Real is what velocities and single contacts are stored in; pairs, whose matrices may be nearly
 /// singular, are in double.
+///
+/// A plane that contacts push is one more body. Its contacts of a colour are solved together, in every sweep: each
+/// feels what any of them does, so that none stands still alone.
 ///
 /// A pair between ranks is solved by both, to the same bits: before each colour the velocities of the rods that such
 /// pairs of it share are exchanged. What sweeps return is of all ranks.
@@ -43,11 +47,12 @@ public:
     void stir_all() { all_are_stirred_ = true; }
 
     /// One pass over all, not over-relaxed, from where the last change of all forces would lead if it were made again,
-    /// `beta` times; 0 after `extend` or another sweep. `last_change`: what the last pass returned, not 0.
+    /// `beta` times; 0 after `extend` or another sweep. `last_change`: what the last pass returned, not 0. Not where
+    /// contacts push a plane.
     SweepProgress sweep_on(double beta, double last_change);
 
-    /// The velocities of the rods as the sweeps have left them.
-    void read_velocities(std::span<ContactVelocity> velocities) const;
+    /// Fills in the velocities, of the rods and of the box, as the sweeps have left them.
+    void read_velocities(ContactSolution& solution) const;
 
     /// Fills `solution` from gamma alone, in double, so that no rounding of the sweeps is left in it.
     void refresh(ContactSolution& solution);
@@ -81,7 +86,8 @@ private:
         Group<CoupledBlock> pairs;
     };
     struct Colour {
-        Kinds here, elsewhere;             ///< elsewhere: that another rank has to add up
+        Kinds here, elsewhere;  ///< elsewhere: that another rank has to add up
+        PlaneContacts<Real> at_plane;
         std::vector<ContactPair> between;  ///< ranks
         BorderMessages messages;           ///< of their rods
     };
@@ -93,6 +99,7 @@ private:
     template <class Item, class MakeItem>
     static void append(Group<Item>& group, std::span<const ContactPair> pairs, MakeItem&& item_of);
     void append(Kinds& contacts, std::span<const ContactPair> new_pairs);
+    std::vector<ContactPair> append_at_plane(Colour& colour, std::span<const ContactPair> new_pairs);
     void append_between_ranks(Colour& colour, std::span<const ContactPair> new_pairs);
     void bring_velocities(Colour& colour);
     /// Calls body(group) for those of a colour that are not empty.
@@ -103,6 +110,7 @@ private:
     }
     template <class Item>
     void find_active(Group<Item>& group);
+    double sweep_at_plane(Colour& colour, const Relaxation& by);
     void note_stirred_rods();
     void carry_on_velocities(double beta);
     template <class Body>
@@ -115,6 +123,7 @@ private:
     double activation_threshold_, still_;
     std::vector<SpatialVector<Real>> velocities_;         ///< (n) V, kept up to date
     std::vector<SpatialVector<Real>> former_velocities_;  ///< (n) V of the forces before the last `sweep_on`
+    double plane_velocity_ = 0.0;                         ///< of the plane that contacts push, kept up to date
     std::uint32_t sweeps_ = 0;                            ///< so far; numbers them
     bool all_are_stirred_ = false;                        ///< to the next sweep no rod stands still
     PairColours pair_colours_;

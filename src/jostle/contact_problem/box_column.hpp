@@ -10,10 +10,13 @@
 namespace jostle {
 
 /// A box that contact forces open, or a plane of it that they push outwards, as one more body: A is A + m w w^T
-/// (theory, eq. 10.4).
+/// (theory, eqs. 10.3a and 10.4).
 struct BoxColumn {
     double mobility = 0.0;               ///< m; 0: the box stays
     std::optional<std::uint32_t> plane;  ///< body that is pushed; none: the logarithm of the volume grows
+
+    /// Whether all contacts push it: then no two of them can be solved side by side.
+    bool joins_all() const { return mobility > 0.0 && !plane; }
 
     /// w: by how much faster the gap of a contact that touches opens than the body moves.
     double of(const Contact& contact, const Rods& rods) const {

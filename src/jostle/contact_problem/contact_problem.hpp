@@ -6,6 +6,7 @@
 #include "jostle/contact_problem/delassus_operator.hpp"
 #include "jostle/domain/domain.hpp"
 #include "jostle/lcp/lcp_problem.hpp"
+#include "jostle/parallel/sum_over_ranks.hpp"
 
 namespace jostle {
 
@@ -55,9 +56,16 @@ public:
     /// Whether there are forces to begin from, on any rank.
     bool begins_warm() const { return domain_.ranks().any(!start_.empty()); }
     double time_step() const { return time_step_; }
+    /// The rate at which forces on all ranks open the box, m w.gamma. No contact with a plane is another rank's, too.
+    double box_rate(std::span<const double> gamma) const {
+        if (!matrix_.opens_box()) return 0.0;
+        return matrix_.box().mobility * sum_over_ranks<double>(domain_.ranks(), gamma.size(), [&](std::size_t l) {
+                   return matrix_.column(l) * gamma[l];
+               });
+    }
     /// (contacts) how fast each gap opens, A gamma + b, from gamma and the velocities that follow from it.
     void gap_velocities(const ContactSolution& solution, std::span<double> rates) const {
-        matrix_.rates(solution.velocities, solution.gamma, rates);
+        matrix_.rates(solution.velocities, solution.box_rate, solution.gamma, rates);
         parallel_for(rates.size(), [&](std::size_t l) { rates[l] += b_[l]; });
     }
     LcpProblem lcp() const { return {matrix_, b_, time_step_, domain_.ranks(), is_elsewhere_}; }
@@ -79,7 +87,7 @@ public:
         solution.resize(contact_matrix_);
         matrix_.velocities(solution.gamma, solution.forces, solution.velocities);
         if (domain_.is_shared()) fetch_velocities(solution.velocities);  // the forces on ghosts are not all known here
-        solution.box_rate = matrix_.box_rate(solution.gamma);
+        solution.box_rate = box_rate(solution.gamma);
     }
 
     /// The contacts, once nothing else of the problem is needed any more.

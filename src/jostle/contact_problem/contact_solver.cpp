@@ -62,7 +62,7 @@ std::unique_ptr<ContactSolver> make_contact_solver(const ContactProblem& problem
     const bool couples_rods = problem.matrix().couples_rods(), opens_box = problem.matrix().opens_box();
     if (method == SolverMethod::automatic && couples_rods && !opens_box && problem.matrix().mobility().among({}))
         return std::make_unique<NearFirst>(problem, settings);
-    const bool couples_all = couples_rods || opens_box;
+    const bool couples_all = couples_rods || problem.matrix().box().joins_all();
     if (method == SolverMethod::automatic)
         method = couples_all ? SolverMethod::adaptive_bb : SolverMethod::projected_sor;
     if (method != SolverMethod::projected_sor) return std::make_unique<LcpContactSolver>(problem, method, settings);
@@ -70,7 +70,8 @@ std::unique_ptr<ContactSolver> make_contact_solver(const ContactProblem& problem
         throw InputError(
             {.key = "solver.method",
              .value = "\"projected_sor\"",
-             .problem = "this method needs a mobility that does not couple rods, and a box that forces do not open",
+             .problem =
+                 "this method needs a mobility that does not couple rods, and a box whose volume forces do not change",
              .allowed = "\"auto\", \"adaptive_bb\", \"bbpgd\", \"apgd\", \"minimum_map_newton\""});
     return std::make_unique<ProjectedSor>(problem, settings);
 }

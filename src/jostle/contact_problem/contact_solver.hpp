@@ -65,7 +65,7 @@ protected:
     bool at_solution_ = false, at_near_candidate_ = false;
 };
 
-/// The solver of a method; "auto" is projected SOR where neither the mobility nor a box that opens couples rods;
+/// The solver of a method; "auto" is projected SOR where neither the mobility nor the volume couples rods;
 /// NearFirst where the mobility couples them and has a near part; else adaptive Barzilai-Borwein descent. Holds
 /// references to problem and settings.
 ///

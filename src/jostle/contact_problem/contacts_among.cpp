@@ -34,7 +34,7 @@ void ContactsAmong::apply(bool near, std::span<const double> gamma, std::span<do
         mobility_->apply(rod_forces_, rod_velocities_);
     parallel_for(locals_.size(),
                  [&](std::size_t k) { velocities_[locals_[k]] = contact_velocity(rod_velocities_, k, axis(k)); });
-    matrix_.rates(velocities_, gamma, rates);
+    matrix_.rates(velocities_, 0.0, gamma, rates);
 }
 
 }  // namespace jostle

@@ -28,13 +28,8 @@ void DelassusOperator::extend() {
     parallel_for(diagonal_.size() - known_contacts, [&](std::size_t k) {
         const std::size_t l = known_contacts + k;
         column_[l] = box_.of(contact_matrix_.contacts().contact[l], all_rods_);
-        diagonal_[l] += box_.mobility * column_[l] * column_[l];
+        diagonal_[l] += (1.0 + compliance_) * box_.mobility * column_[l] * column_[l];
     });
-}
-
-double DelassusOperator::box_rate(std::span<const double> gamma) const {
-    if (!opens_box()) return 0.0;
-    return box_.mobility * parallel_sum<double>(gamma.size(), [&](std::size_t l) { return column_[l] * gamma[l]; });
 }
 
 /// (D^T M D)_ll
@@ -50,16 +45,16 @@ void DelassusOperator::apply(std::span<const double> gamma, std::span<double> ra
     forces_.resize(rods_.size());
     velocities_.resize(rods_.size());
     velocities(gamma, forces_, velocities_);
-    this->rates(velocities_, gamma, rates);
+    const double box_rate =
+        opens_box() ? box_.mobility * parallel_sum<double>(size(), [&](std::size_t l) { return column_[l] * gamma[l]; })
+                    : 0.0;
+    this->rates(velocities_, box_rate, gamma, rates);
 }
 
-void DelassusOperator::rates(std::span<const ContactVelocity> velocities, std::span<const double> gamma,
-                             std::span<double> rates) const {
+void DelassusOperator::rates(std::span<const ContactVelocity> velocities, double box_rate,
+                             std::span<const double> gamma, std::span<double> rates) const {
     contact_matrix_.apply_transpose(velocities, rates);
-    if (opens_box()) {
-        const double rate = box_rate(gamma);
-        parallel_for(rates.size(), [&](std::size_t l) { rates[l] += rate * column_[l]; });
-    }
+    if (opens_box()) parallel_for(rates.size(), [&](std::size_t l) { rates[l] += box_rate * column_[l]; });
     if (!compliant()) return;
     parallel_for(rates.size(), [&](std::size_t l) { rates[l] += compliance(l) * gamma[l]; });
 }

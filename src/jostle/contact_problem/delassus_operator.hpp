@@ -11,7 +11,7 @@ namespace jostle {
 ///
 /// With a compliance kappa it is D^T M D + kappa diag(D^T M D) (theory, eq. 3.9): positive definite. Never formed: one
 /// application is a gather over the rods that have contacts, the mobility, and a pass over contacts. A box that opens
-/// adds the square of its column. Holds references.
+/// is one more body: D^T M D then has the square of its column. Holds references.
 class DelassusOperator final : public LinearOperator {
 public:
     DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods, const MobilityOperator& mobility,
@@ -36,12 +36,11 @@ public:
     bool couples_rods() const { return mobility_.couples_rods(); }
     const MobilityOperator& mobility() const { return mobility_; }
     bool opens_box() const { return box_.mobility > 0.0; }
+    const BoxColumn& box() const { return box_; }
+    double column(std::size_t l) const { return column_[l]; }  ///< w, where the box opens
 
-    /// The rate of the box: m w.gamma.
-    double box_rate(std::span<const double> gamma) const;
-
-    /// A gamma, from M D gamma.
-    void rates(std::span<const ContactVelocity> velocities, std::span<const double> gamma,
+    /// A gamma, from M D gamma and the rate of the box, m w.gamma.
+    void rates(std::span<const ContactVelocity> velocities, double box_rate, std::span<const double> gamma,
                std::span<double> rates) const;
 
     /// D gamma and M D gamma, one a rod with contacts.

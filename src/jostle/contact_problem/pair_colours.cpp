@@ -132,7 +132,8 @@ void PairColours::list_new_pairs(const ContactMatrix& contact_matrix) {
     for (auto l = static_cast<std::uint32_t>(coloured_); l < rods.size();) {
         const auto [i, j] = rods[l];
         std::uint32_t next = l + 1;
-        while (next < rods.size() && next < l + max_points && pair_of(contacts, next) == pair_of(contacts, l)) ++next;
+        const std::uint32_t most = contacts.contact[l].i == plane_ ? 1 : max_points;
+        while (next < rods.size() && next < l + most && pair_of(contacts, next) == pair_of(contacts, l)) ++next;
         pairs_.push_back({i, j, l, next - l});
         l = next;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct ContactPair {
 /// other and by nothing newer, whether its turn has come.
 class PairColours {
 public:
+    /// `plane`: a body that contacts push, if any. Each contact with it is a pair of its own, so that the two ends of a
+    /// rod at it have two colours.
+    explicit PairColours(std::optional<std::uint32_t> plane = std::nullopt) : plane_(plane) {}
+
     /// Colours the pairs of the contacts that the matrix has been extended by; earlier pairs keep theirs.
     /// Returns these pairs by colours, as many as any rank needs. Errors: InputError if a rod has more neighbours than
     /// there are colours, and ranks share the rods.
@@ -52,6 +57,7 @@ private:
     void advance(std::uint32_t local);
     void give_colours_beyond_most(const ContactMatrix& contact_matrix);
 
+    std::optional<std::uint32_t> plane_;
     std::vector<std::uint64_t> taken_;  ///< (n) a bit for each colour that a rod has
     std::size_t coloured_ = 0;          ///< contacts taken in
     std::vector<std::vector<ContactPair>> by_colour_;

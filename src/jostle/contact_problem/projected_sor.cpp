@@ -158,7 +158,7 @@ private:
         if (!(has_momentum() ? has_fallen_to_next_search() : outcome_.iterations >= next_search_)) return false;
         next_search_ = begun_ + 3 * (outcome_.iterations - begun_);
         next_search_change_ = next_search_part * change_;
-        gauss_seidel_.read_velocities(solution_.velocities);
+        gauss_seidel_.read_velocities(solution_);
         at_candidate_ = true;
         return true;
     }
@@ -204,7 +204,8 @@ private:
 ProjectedSor::ProjectedSor(const ContactProblem& problem, const LcpSettings& settings)
     : ContactSolver(problem, settings) {
     const double overlap = deepest_overlap();
-    may_have_momentum_ = settings.tolerance > finest_with_momentum * overlap && is_crowd(pushing_at_start());
+    may_have_momentum_ = settings.tolerance > finest_with_momentum * overlap && is_crowd(pushing_at_start()) &&
+                         !problem.matrix().opens_box();
     if (settings.residual == LcpResidual::length && std::isfinite(overlap) &&
         settings.tolerance > finest_in_float * overlap)
         in_float_ = std::make_unique<Sweeps<float>>(problem, settings, solution_, outcome_, patience_with_float,

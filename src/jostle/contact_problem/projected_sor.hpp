@@ -16,11 +16,11 @@ namespace jostle {
 /// This converges for every symmetric positive semi-definite A and 0 < omega < 2 (Cryer 1971; Mangasarian 1977), many
 /// times faster than a gradient method, because a pair's forces act on its rods at once. Pairs are coloured, so that no
 /// two of one colour share a rod (PairColours): pairs of a colour can be solved by any threads in any order with the
-/// same result.
+/// same result. Contacts that push a plane share it: those of a colour are solved together (PlaneContacts).
 ///
 /// Where a large problem has forces to begin from, what is left are the slow modes of a crowd. If the tolerance is not
 /// fine, sweeps over all contacts are then not over-relaxed, but carried on by momentum (SweepMomentum), unless that
-/// fails (decision 0053).
+/// fails (decision 0053), or a plane is pushed.
 ///
 /// Else only contacts that push, or are about to, take part in most sweeps (BlockGaussSeidel). Before the result is
 /// called solved, forces and velocities are computed anew from gamma, and the residual over all contacts from them. It

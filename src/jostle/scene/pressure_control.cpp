@@ -21,7 +21,7 @@ namespace {
 
 /// In D, by which rods that touch are brought nearer; of noise, root mean square.
 constexpr double automatic_strain = 0.01, advised_strain = 0.03, largest_strain = 0.1;
-/// Of a rod's mobility: noise of a plane is common to all that touch it, and reflected steps know nothing of it.
+/// Of a rod's mobility: noise of a plane is common to all that touch it.
 constexpr double mobility_of_piston = 0.1;
 /// Viscosities over the pressure: rods in suspension resist as 100 viscosities at a volume fraction of some 0.6.
 constexpr double viscosities = 100.0;
@@ -155,7 +155,7 @@ void validate_compression(const Scene& scene) {
     };
     only(!scene.springs.file.empty(), "springs do", "Remove springs.file");
     only(scene.forces.on_rods != Vec3{} || scene.forces.alignment_energy != 0.0, "[forces] do", "Remove [forces]");
-    if (scene.solver.method == SolverMethod::projected_sor)
+    if (scene.solver.method == SolverMethod::projected_sor && !is_piston(scene))
         refuse("solver.method", "\"projected_sor\"", "cannot solve for a box that all contacts open",
                "\"auto\", \"adaptive_bb\", \"minimum_map_newton\", \"bbpgd\", \"apgd\"", "");
     if (scene.pressure.coupling == StrainCoupling::orthogonal)

@@ -26,7 +26,7 @@ double pressure_relaxation_time(const Scene& scene, double count, double edge);
 std::vector<StepLimit> pressure_limits(const Scene& scene, const Rods& rods);
 
 /// How far forces may move the box in a step: so that rods that touch come nearer by as much as `jostle check` advises.
-/// Of the logarithm of the volume, or of each edge. Not of a piston: one contact moves it as far.
+/// Of the logarithm of the volume, or of each edge. Not of a piston, which forces move in the step in which they act.
 double largest_box_move(const Scene& scene, const Rods& rods);
 
 /// Throws InputError where a bath of pressure does not go with what else the scene has.

@@ -25,7 +25,19 @@ Wall piston_of(const Box& box, int direction) {
     return {};
 }
 
-/// Theory, eq. (10.1), and (10.3) of a plane.
+/// Theory, eq. (10.3): contact forces come in the same step.
+EdgesUnderPressure piston_moved(const State& state, const PressureControl& control, double kT,
+                                const StepContext& context) {
+    const Wall piston = piston_of(state.box, control.piston);
+    const double drift = -control.mobility * control.external * area_of(piston, state.box) * context.time_step;
+    const double noise = std::sqrt(2.0 * kT * control.mobility * context.time_step) * noise_of_the_box(context)[0];
+    EdgesUnderPressure moved{state.box.edges()};
+    moved.edges[control.piston] += drift + noise;
+    moved.piston = {piston.body(), drift + noise, drift};
+    return moved;
+}
+
+/// Theory, eq. (10.1).
 EdgesUnderPressure moved_by_forces(const State& state, std::size_t rods, const PressureControl& control, double kT,
                                    const StepContext& context) {
     EdgesUnderPressure moved{state.box.edges()};
@@ -40,12 +52,6 @@ EdgesUnderPressure moved_by_forces(const State& state, std::size_t rods, const P
         moved.held_back = true;
         return std::copysign(control.largest_move, move);
     };
-    if (control.moves == Moves::plane) {
-        const int k = control.piston;
-        const double load = control.external * area_of(piston_of(state.box, k), state.box);
-        edges[k] += control.mobility * (force[k] - load) * context.time_step + noise * normal[0];
-        return moved;
-    }
     const bool each = control.moves == Moves::edges;
     const double mean = (force.x + force.y + force.z) / 3.0;
     const Vec3 virial = each ? force : Vec3{mean, mean, mean};
@@ -62,23 +68,23 @@ EdgesUnderPressure moved_by_forces(const State& state, std::size_t rods, const P
 
 EdgesUnderPressure edges_under_pressure(const State& state, std::size_t rods, const PressureControl& control, double kT,
                                         const StepContext& context) {
-    if (kT > 0.0) return moved_by_forces(state, rods, control, kT, context);
+    if (kT > 0.0)
+        return control.moves == Moves::plane ? piston_moved(state, control, kT, context)
+                                             : moved_by_forces(state, rods, control, kT, context);
     return {opened(state.box.edges(), control, -control.rate, context.time_step)};
 }
 
-Vec3 force_on_box(const StepReport& report, const PressureControl& control) {
+Vec3 force_on_box(const StepReport& report) {
     Vec3 force;
-    for (int k = 0; k < 3; ++k)
-        force[k] = control.moves == Moves::plane
-                       ? report.wall_force[2 * static_cast<std::size_t>(k) + 1]
-                       : report.centre_of_mass_virial(k, k) + trace(report.spring_virial) / 3.0;
+    for (int k = 0; k < 3; ++k) force[k] = report.centre_of_mass_virial(k, k) + trace(report.spring_virial) / 3.0;
     return force;
 }
 
 BoxColumn opening_of(const Box& before, const PressureControl& control) {
     if (control.moves != Moves::plane) return {control.rate / (control.external * before.volume()), std::nullopt};
     const Wall piston = piston_of(before, control.piston);
-    return {control.rate / (control.external * area_of(piston, before)), piston.body()};
+    const bool thermal = control.mobility > 0.0;
+    return {thermal ? control.mobility : control.rate / (control.external * area_of(piston, before)), piston.body()};
 }
 
 Vec3 opened(const Vec3& edges, const PressureControl& control, double rate, double time_step) {

@@ -87,8 +87,10 @@ bool ContactResolution::run_to_solution(ContactSolver& solver, ContactProblem& p
         end.set_velocities(problem.contact_matrix(),
                            {acting ? acting->velocities : std::span<const ContactVelocity>{}, solution.velocities});
         Contacts more;
-        if (solver.near_solution() && relinearisations-- > 0)
-            more = relinearised(problem.contacts(), end, solution, how.max_overlap);
+        if (solver.near_solution() && relinearisations-- > 0) {
+            const Box box = opened_by((acting ? acting->box_rate : 0.0) + solution.box_rate);
+            more = relinearised(problem, box, end, solution, how.max_overlap);
+        }
         const auto met = violated(problem, end, solver.at_solution());
         if (!met) return false;
         more.append(*met);
@@ -99,7 +101,14 @@ bool ContactResolution::run_to_solution(ContactSolver& solver, ContactProblem& p
     return true;
 }
 
-// Pairs that are no contacts and yet touch at the end of the step, as contacts. None if rods of other ranks might be
+// The box at the end of the step, where contact forces open it at this rate.
+Box ContactResolution::opened_by(double rate) const {
+    if (!opens_in_step(settings_.pressure, settings_.kT)) return state_.box;
+    return state_.box.with_edges(opened(state_.box.edges(), *settings_.pressure, rate, settings_.time_step));
+}
+
+// Pairs that are no contacts and yet touch at the end of the step, as contacts: also rods that a piston which goes
+// before them will not have touched. None if rods of other ranks might be
 // among them that are not known.
 std::optional<Contacts> ContactResolution::violated(const ContactProblem& problem, const EndConfiguration& end,
                                                     bool at_solution) {
@@ -113,19 +122,23 @@ std::optional<Contacts> ContactResolution::violated(const ContactProblem& proble
 
 // Not in the paper (theory, eq. 2.18): the problem again, linear about where its solution takes those rods that would
 // overlap there.
-Contacts ContactResolution::relinearised(const Contacts& contacts, const EndConfiguration& end,
+Contacts ContactResolution::relinearised(const ContactProblem& problem, const Box& box, const EndConfiguration& end,
                                          const ContactSolution& solution, double max_overlap_per_diameter) const {
+    const Contacts& contacts = problem.contacts();
     // Beyond what the solver may leave.
     const double tolerance = settings_.lcp.residual == LcpResidual::length ? settings_.lcp.tolerance : 0.0;
     const double max_overlap = max_overlap_per_diameter * sizes_.mean_diameter + tolerance;
-    Contacts more = relinearised_contacts(contacts, state_.box, end, max_overlap);
-    more.append(relinearised_wall_contacts(contacts, state_.box, end, max_overlap));
-    more.append(relinearised_fixed_rod_contacts(contacts, state_.box, end, max_overlap));
+    Contacts more = relinearised_contacts(contacts, box, end, max_overlap);
+    more.append(relinearised_wall_contacts(contacts, box, end, max_overlap));
+    more.append(relinearised_fixed_rod_contacts(contacts, box, end, max_overlap));
     const auto velocity = [&](std::uint32_t body) {
         return is_fixed(body) ? ContactVelocity{} : solution.velocities[end.local_index[body]];
     };
-    for (Contact& contact : more.contact)
-        contact.gap_after -= settings_.time_step * gap_rate(contact, velocity(contact.i), velocity(contact.j));
+    for (Contact& contact : more.contact) {
+        const double by_rods = gap_rate(contact, velocity(contact.i), velocity(contact.j));
+        const double by_box = solution.box_rate * problem.matrix().box().of(contact, state_.rods);
+        contact.gap_after -= settings_.time_step * (by_rods + by_box);
+    }
     return more;
 }
 
@@ -149,7 +162,7 @@ std::vector<double> ContactResolution::gap_velocities_beside(const ContactSoluti
                                                              const ContactMatrix& contact_matrix) const {
     EndConfiguration there = after_known_motion();
     there.set_velocities(contact_matrix, {acting.velocities});
-    std::vector<double> b = gaps_at(contacts, state_.box, there);
+    std::vector<double> b = gaps_at(contacts, opened_by(acting.box_rate), there);
     parallel_for(b.size(), [&](std::size_t l) {
         if (contacts.feature[l] == ContactFeature::relinearised) b[l] = contacts.contact[l].gap_after;
         b[l] /= settings_.time_step;

@@ -43,8 +43,9 @@ private:
     ContactSolution reflected(const ContactProblem& problem, const ContactSolution& solution) const;
     bool run_to_solution(ContactSolver& solver, ContactProblem& problem, const ContactSolution* acting);
     std::optional<Contacts> violated(const ContactProblem& problem, const EndConfiguration& end, bool at_solution);
-    Contacts relinearised(const Contacts& contacts, const EndConfiguration& end, const ContactSolution& solution,
-                          double max_overlap_per_diameter) const;
+    Contacts relinearised(const ContactProblem& problem, const Box& box, const EndConfiguration& end,
+                          const ContactSolution& solution, double max_overlap_per_diameter) const;
+    Box opened_by(double rate) const;
     std::vector<double> gap_velocities(const Contacts& contacts) const;
     std::vector<double> gap_velocities_beside(const ContactSolution& acting, const Contacts& contacts,
                                               const ContactMatrix& contact_matrix) const;

@@ -7,6 +7,7 @@
 #include "jostle/domain/domain.hpp"
 #include "jostle/motion/motion.hpp"
 #include "jostle/rods/configuration.hpp"
+#include "jostle/simulation/plane_motion.hpp"
 #include "jostle/state/state.hpp"
 
 namespace jostle {
@@ -20,6 +21,7 @@ struct KnownMotion {
     std::vector<SpringPull> pulls;     ///< of the springs
     Forces exerted{0};                 ///< (N) by the motions alone; (0) where they exert none
     Velocities by_forces;              ///< (N) part of U_known by `exerted` and springs; (0) without both
+    PlaneMotion piston;
 };
 
 /// Makes `known` that of this state. `has_springs`: any rods, be they other ranks'.

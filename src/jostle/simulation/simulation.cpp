@@ -87,6 +87,7 @@ std::optional<Vec3> Simulation::edges_of_step(StepReport& report) {
     const EdgesUnderPressure moved =
         edges_under_pressure(state_, rods_in_all(), *settings_.pressure, settings_.kT, context());
     report.box_held_back = moved.held_back;
+    known_.piston = moved.piston;
     const Vec3& edge = moved.edges;
     if (settings_.pressure->moves != PressureControl::Moves::plane)
         report.lacking_edge = std::max(0.0, settings_.pressure->least_edge - std::min({edge.x, edge.y, edge.z}));

@@ -118,7 +118,7 @@ private:
     void advance(KnownMotion& known, const ContactSolution& solution, const Contacts& contacts, StepReport& report);
     void open_box(double rate, StepReport& report);
     /// Whether contact forces do, in the step in which they act.
-    bool opens_box() const { return settings_.pressure && settings_.kT == 0.0; }
+    bool opens_box() const { return opens_in_step(settings_.pressure, settings_.kT); }
     void turn_round(std::span<const std::uint32_t> rows);
     void divide();
     std::vector<LineageEvent> divide_own();

@@ -43,7 +43,8 @@ std::unordered_map<std::uint64_t, std::uint32_t> rows_of(const Rods& rods, std::
 }  // namespace
 
 void Simulation::require_ready_for_ranks() const {
-    require_ready(!opens_box(), "pressure", "compression without thermal motion is");
+    require_ready(!opens_box() || settings_.pressure->moves == PressureControl::Moves::plane, "pressure",
+                  "compression without thermal motion is");
     require_ready(settings_.method == SolverMethod::automatic || settings_.method == SolverMethod::projected_sor,
                   "solver.method", "solvers for comparison are");
     require_ready(!mobility_->at(state_.rods, state_.box)->couples_rods(), "fluid", "rods that a fluid couples are");

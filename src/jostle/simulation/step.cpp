@@ -92,7 +92,7 @@ std::optional<StepReport> Simulation::attempt() {
     measure_stress(step, settings_, half_way_axis_, report, moments_);  // 4
     timer.finish(StepPhase::measure_stress);
 
-    if (settings_.pressure && settings_.kT > 0.0) state_.box_force = force_on_box(report, *settings_.pressure);
+    if (settings_.pressure && !opens_box()) state_.box_force = force_on_box(report);
     changes.keep();
     advance(known_, solution_, contacts_, report);  // 5
     timer.finish(StepPhase::advance);
@@ -148,7 +148,7 @@ void Simulation::advance(KnownMotion& known, const ContactSolution& solution, co
     if (settings_.warm_start) remember_forces(contacts, solution.gamma);
 }
 
-// Theory 10: contact forces have opened the box at this rate, and the centres go with it.
+// Theory 10: contact forces have opened the box at this rate, and the centres go with it; of a piston the plane alone.
 void Simulation::open_box(double rate, StepReport& report) {
     const Vec3 edges = opened(state_.box.edges(), *settings_.pressure, rate, settings_.time_step);
     Squeezing opening(state_, edges, searches_.rods);
