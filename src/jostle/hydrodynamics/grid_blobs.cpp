@@ -73,7 +73,7 @@ GridBlobs::Weights GridBlobs::weights_of_blobs(Value&& value) const {
         for (std::size_t direction = 0; direction < 3; ++direction)
             for (std::size_t p = 0; p < points_; ++p)
                 weights[(3 * k + direction) * points_ + p] =
-                    value(static_cast<double>(p) - placed_[k].offset[direction]);
+                    static_cast<float>(value(static_cast<double>(p) - placed_[k].offset[direction]));
     });
     return weights;
 }
@@ -108,7 +108,7 @@ void GridBlobs::spread_vectors(std::vector<GridVector>& field, VectorOf&& vector
         vector[k] = GridVector(vector_of(blob, blobs_.of(blob.row)));
     });
     spread_blobs(field, [&](std::size_t k, std::size_t y, std::size_t z, GridVector* row, const std::size_t* along_x) {
-        const double* const weight = of_blob(weights_, k, 0);
+        const float* const weight = of_blob(weights_, k, 0);
         const GridVector::Lanes share = vector[k].lanes * (of_blob(weights_, k, 1)[y] * of_blob(weights_, k, 2)[z]);
         for (std::size_t p = 0; p < points_; ++p) row[along_x[p]].lanes += weight[p] * share;
     });
@@ -140,10 +140,10 @@ void GridBlobs::spread(const AxialStresslets& stresslets, std::vector<GridVector
             force * weight_y * weight_z + dipole * (axis.y * per_length_.y * of_blob(slopes, k, 1)[y] * weight_z +
                                                     axis.z * per_length_.z * of_blob(slopes, k, 2)[z] * weight_y);
         const double on_slope = dipole * axis.x * per_length_.x * weight_y * weight_z;
-        const GridVector::Lanes direction = {axis.x, axis.y, axis.z, 0.0};
+        const GridVector::Lanes direction = GridVector(axis).lanes;
         for (std::size_t p = 0; p < points_; ++p) {
             const double weight = across_x * of_blob(weights_, k, 0)[p] + on_slope * of_blob(slopes, k, 0)[p];
-            row[along_x[p]].lanes += weight * direction;
+            row[along_x[p]].lanes += static_cast<float>(weight) * direction;
         }
     });
 }
@@ -175,7 +175,7 @@ void GridBlobs::gather_turning(const std::vector<GridVector>& field, std::span<L
 
 Vec3 GridBlobs::velocity_of(std::size_t blob, const std::vector<GridVector>& field) const {
     const std::array<std::uint32_t, 3>& first = placed_[blob].first;
-    const double* const weight = of_blob(weights_, blob, 0);
+    const float* const weight = of_blob(weights_, blob, 0);
     std::array<std::size_t, max_spread_points> along_x{};
     for (std::size_t p = 0; p < points_; ++p) along_x[p] = wrapped(first[0] + p, 0);
     GridVector velocity;
@@ -187,7 +187,7 @@ Vec3 GridBlobs::velocity_of(std::size_t blob, const std::vector<GridVector>& fie
             for (std::size_t p = 0; p < points_; ++p) of_line.lanes += weight[p] * line[along_x[p]].lanes;
             velocity.lanes += (of_blob(weights_, blob, 1)[y] * of_blob(weights_, blob, 2)[z]) * of_line.lanes;
         }
-    return {velocity.lanes[0], velocity.lanes[1], velocity.lanes[2]};
+    return velocity.vector();
 }
 
 }  // namespace jostle

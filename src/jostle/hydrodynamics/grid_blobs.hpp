@@ -44,7 +44,7 @@ private:
         std::uint32_t row, number;           ///< of its rod, and on its line
     };
     /// Three times `points_` numbers a blob: of the kernel, or of its slope.
-    using Weights = std::vector<double>;
+    using Weights = std::vector<float>;
 
     std::vector<Blob> blobs_by_ids(const Box& box);
     void sort(const std::vector<Blob>& by_ids);
@@ -59,7 +59,7 @@ private:
     std::size_t wrapped(std::size_t point, std::size_t direction) const {
         return point < grid_[direction] ? point : point - grid_[direction];
     }
-    const double* of_blob(const Weights& weights, std::size_t blob, std::size_t direction) const {
+    const float* of_blob(const Weights& weights, std::size_t blob, std::size_t direction) const {
         return &weights[(3 * blob + direction) * points_];
     }
 

@@ -2,6 +2,7 @@
 
 #include <complex>
 #include <cstddef>
+#include <type_traits>
 
 #include "jostle/math/vec3.hpp"
 
@@ -9,21 +10,24 @@ namespace jostle {
 
 /// Three numbers at a point of a grid, x, y, z, in a vector register; its fourth lane holds nothing.
 ///
-/// It has the arithmetic of a number, lane by lane, so that KissFFT transforms all three at once.
-struct alignas(32) GridVector {
-    using Lanes [[gnu::vector_size(32)]] = double;
+/// It has the arithmetic of a number, lane by lane, so that KissFFT transforms all three at once. Floats: a register of
+/// every processor holds them, and their rounding, 1e-7 of a flow, is below every tolerance (decision 0074).
+struct alignas(16) GridVector {
+    using Lanes [[gnu::vector_size(16)]] = float;
     Lanes lanes{};
 
     GridVector() = default;
     GridVector(const Lanes& values) : lanes(values) {}  // NOLINT: as a vector register
     /// The same in all lanes.
-    GridVector(double value) : lanes{value, value, value, value} {}  // NOLINT: KissFFT writes numbers
-    explicit GridVector(const Vec3& v) : lanes{v.x, v.y, v.z, 0.0} {}
+    template <class Number, class = std::enable_if_t<std::is_arithmetic_v<Number>>>
+    GridVector(Number value) : lanes(static_cast<float>(value) - Lanes{}) {}  // NOLINT: KissFFT writes numbers
+    explicit GridVector(const Vec3& v)
+        : lanes{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0.0F} {}
     /// Of one that is the same in all lanes.
     operator double() const { return lanes[0]; }  // NOLINT: KissFFT takes sines of numbers
 
     Vec3 vector() const { return {lanes[0], lanes[1], lanes[2]}; }
-    double sum() const { return lanes[0] + lanes[1] + lanes[2]; }
+    float sum() const { return lanes[0] + lanes[1] + lanes[2]; }
 
     GridVector& operator+=(const GridVector& other) { return lanes += other.lanes, *this; }
     GridVector& operator-=(const GridVector& other) { return lanes -= other.lanes, *this; }

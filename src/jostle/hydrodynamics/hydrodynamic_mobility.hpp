@@ -23,8 +23,9 @@ enum class SpheresTurn { not_with_fluid, with_fluid };
 /// mobilities, with blobs of force along each rod, in an unbounded fluid or in a box that is periodic along all
 /// directions.
 ///
-/// Symmetric to rounding, and positive at any distance. It has the rods' far fields and what these do to other rods
-/// (their Faxen laws); it leaves out lubrication and the stresses that rods answer straining flow with.
+/// Symmetric to the rounding of floats, in which flows are summed, and positive at any distance. It has the rods' far
+/// fields and what these do to other rods (their Faxen laws); it leaves out lubrication and the stresses that rods
+/// answer straining flow with.
 class HydrodynamicMobility final : public Mobility {
 public:
     /// `tolerance`: relative error of velocities in a periodic box, 1e-6 to 1e-2, against exact sums over images;

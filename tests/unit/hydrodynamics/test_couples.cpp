@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 
 #include "jostle/hydrodynamics/couple_flow.hpp"
@@ -244,11 +245,13 @@ TEST_CASE("with couples M is symmetric to rounding, and positive, for spheres an
             const auto model = fluid();
             const auto mobility = model.at(rods, box);
             const Eigen::MatrixXd matrix = matrix_of(*mobility, rods.size());
-            CHECK((matrix - matrix.transpose()).norm() < 1e-14 * matrix.norm());
+            const double rounding = periodic ? std::numeric_limits<float>::epsilon() : 1e-14;
+            CHECK((matrix - matrix.transpose()).norm() < rounding * matrix.norm());
             const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvalues();
             const auto spins = static_cast<Eigen::Index>(rods.size());  // about the axes: nothing answers
-            CHECK(eigenvalues(0) > -1e-12);
-            CHECK(eigenvalues(spins - 1) < 1e-12);
+            const double nothing = rounding * eigenvalues(eigenvalues.size() - 1);
+            CHECK(eigenvalues(0) > -nothing);
+            CHECK(eigenvalues(spins - 1) < nothing);
             CHECK(eigenvalues(spins) > 1e-4);
         }
 }
@@ -264,7 +267,7 @@ TEST_CASE("the thermal drift is div M: three rods and one sphere, against centra
         const auto model = fluid(1e-6, periodic ? std::optional(6.0) : std::nullopt);
         Velocities drift(4), difference(4);
         model.at(rods, box)->add_axial_flow({.kT = 1.0, .dipole = {}}, drift);
-        constexpr double angle = 1e-4;
+        constexpr double angle = 1e-2;  // as there, for the rounding of floats
         for (std::size_t j = 0; j < 4; ++j)
             for (int k = 0; k < 3; ++k)
                 for (const double sign : {-1.0, 1.0}) {

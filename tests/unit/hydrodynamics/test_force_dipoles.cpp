@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -139,12 +140,15 @@ TEST_CASE("two swimmers in a periodic box: against the sum over waves, rods and 
 TEST_CASE("swimmers and thermal turning share one flow: it is the sum of the two") {
     for (const bool periodic : {false, true}) {
         const Box box{{12, 13, 14}, {periodic, periodic, periodic}};
+        // Sums over grids are floats. Near a blob the flow is that of forces up to 3.6/D rho_c = 0.6, through a
+        // mobility of 0.1; along the rod it cancels.
+        const double rounding = periodic ? 0.06 * std::numeric_limits<float>::epsilon() : 1e-14;
         const Rods rods = two_rods(5.0, 2.0, {2.0, -1.5, 1.0});
         const Velocities both = stirred(rods, box, {2.0, -1.0}, 0.8);
         const Velocities swimmers = stirred(rods, box, {2.0, -1.0}), drift = stirred(rods, box, {}, 0.8);
         for (std::size_t i = 0; i < 2; ++i) {
-            CHECK(norm(both.linear[i] - swimmers.linear[i] - drift.linear[i]) < 1e-14);
-            CHECK(norm(both.angular[i] - swimmers.angular[i] - drift.angular[i]) < 1e-14);
+            CHECK(norm(both.linear[i] - swimmers.linear[i] - drift.linear[i]) < rounding);
+            CHECK(norm(both.angular[i] - swimmers.angular[i] - drift.angular[i]) < rounding);
         }
     }
 }
