@@ -18,6 +18,8 @@ BODY = math.pi / 6.0 + math.pi / 4.0 * LENGTH
 STATES = {0.2: (4.266, 1.36), 0.3: (7.778, 1.62)}
 RELAXATION = 100.0  # of the bath; its box relaxes ten to twenty times as fast
 RADIUS, ROW, LOAD = 0.75, 3, 1.0  # of the tube, in D; spheres; kT/D
+PISTONS = [(3, 0.1), (3, 0.3), (10, 0.3)]  # spheres; mobility over that of a sphere
+DIFFUSION = 1.0 / (3.0 * math.pi)  # of a sphere, in kT/(mu D)
 SEEDS, QUICK_SEEDS = (1, 2, 3, 4, 5, 6, 7, 8), (1, 2)
 ROW_LENGTH = 6.0
 
@@ -31,8 +33,8 @@ def runs(quick):
                 scene={"seed": 4, "box": {"volume_fraction": 0.9 * phi}, "rods": rods, "time": {"rms_step": 0.05},
                        "pressure": {"external": pressure_of(phi), "relaxation_time": RELAXATION}},
                 equilibration=8000, production=40000 if quick else 240000) for phi in states]
-    piston = [Run(name=f"piston_{seed}", scene=row_scene(seed, 2.0 * ROW, {"external": LOAD / (math.pi * RADIUS**2), "coupling": "piston"}),
-                  equilibration=20000, production=4000000) for seed in SEEDS]
+    piston = [Run(name=piston_name(count, mobility, seed), scene=row_scene(seed, 2.0 * count, under_piston(count, mobility), count),
+                  equilibration=20000 * count // 3, production=4000000) for count, mobility in PISTONS for seed in SEEDS]
     fixed = [Run(name=f"row_{seed}", scene=row_scene(seed, ROW_LENGTH), equilibration=10000, production=400000 if quick else 2000000)
              for seed in (QUICK_SEEDS if quick else SEEDS)]
     return [*volume, *bath, *([] if quick else piston), *fixed]  # few independent lengths in a quick run
@@ -42,9 +44,19 @@ def pressure_of(phi):
     return phi / BODY * STATES[phi][0]
 
 
-def row_scene(seed, length, pressure=None):
+def piston_name(count, mobility, seed):
+    return f"piston_{count}_{mobility:g}_{seed}"
+
+
+def under_piston(count, mobility):
+    """Its mobility is edge^2/(relaxation_time N kT)."""
+    return {"external": LOAD / (math.pi * RADIUS**2), "coupling": "piston",
+            "relaxation_time": (2.0 * count)**2 / (count * mobility * DIFFUSION)}
+
+
+def row_scene(seed, length, pressure=None, count=ROW):
     return {"seed": seed, "box": {"edges": [length, 2.0 * RADIUS, 2.0 * RADIUS], "periodic": [False, False, False]},
-            "walls": {"container": "tube", "faces": [True, False, False]}, "rods": {"count": ROW, "length": 0.0, "start": "aligned"},
+            "walls": {"container": "tube", "faces": [True, False, False]}, "rods": {"count": count, "length": 0.0, "start": "aligned"},
             **({"pressure": pressure} if pressure else {}), "time": {"rms_step": 0.06}, "output": {"series_every": 20}}
 
 
@@ -79,28 +91,46 @@ def evaluate(report, runs_by_name, quick):
     report.compare(f"{ROW} spheres in a tube of length {ROW_LENGTH:g} D: force on an end", force, (exact_force, 0.0), 0.01)
     row_table = [["force, kT/D", with_error(*force, 4), f"{exact_force:.4f}"]]
     numbers.append(["force", *force, exact_force, 0.0])
+    report.table(f"A row of {ROW} spheres in a tube of radius {RADIUS:g} D between ends {ROW_LENGTH:g} D apart.", ["quantity", "measured", "exact"], row_table)
     if not quick:
-        lengths = numpy.array([runs_by_name[f"piston_{seed}"].series()["edge_x"] for seed in SEEDS])
-        mean, variance = length_under_load(LOAD, RADIUS - 0.5)
-        length, spread = of_blocks(lengths), of_blocks((lengths - mean)**2)
-        spread = spread[0] - (length[0] - mean)**2, spread[1]
-        report.compare(f"{ROW} spheres under a piston: mean length", length, (mean, 0.0), 0.007)
-        report.compare("the same: its variance", spread, (variance, 0.0), 0.03)
-        row_table += [["mean length, D", with_error(*length), f"{mean:.4f}"], ["variance, D2", with_error(*spread), f"{variance:.4f}"]]
-        numbers += [["length", *length, mean, 0.0], ["variance", *spread, variance, 0.0]]
-        draw(report, lengths, mean)
-    report.table(f"A row of {ROW} spheres in a tube of radius {RADIUS:g} D: between ends {ROW_LENGTH:g} D apart, and under a load of {LOAD:g} kT/D.",
-                 ["quantity", "measured", "exact"], row_table)
+        numbers += evaluate_pistons(report, runs_by_name)
     report.numbers(["quantity", "measured", "error", "expected", "expected_error"], numbers)
 
 
-def draw(report, lengths, mean):
+def evaluate_pistons(report, runs_by_name):
+    rows, numbers = [], []
+    for count, mobility in PISTONS:
+        series = [runs_by_name[piston_name(count, mobility, seed)].series() for seed in SEEDS]
+        lengths = numpy.array([one["edge_x"] for one in series])
+        forces = numpy.array([one["wall_force_x_upper"] for one in series])
+        mean, variance = length_under_load(LOAD, RADIUS - 0.5, count)
+        length, spread, load = of_blocks(quiet(lengths, forces, variance)), of_blocks((lengths - mean)**2), of_blocks(forces / LOAD)
+        row = f"{count} spheres under a piston {mobility:g} times as mobile as one"
+        report.compare(f"{row}: mean length", length, (mean, 0.0), 0.007)
+        report.compare(f"{row}: its variance", spread, (variance, 0.0), 0.03)
+        report.compare(f"{row}: force over load", load, (1.0, 0.0), 0.007)
+        rows.append([f"{count}", f"{mobility:g}", with_error(*length), f"{mean:.4f}", with_error(*spread), f"{variance:.4f}", with_error(*load)])
+        numbers += [[f"length_{count}_{mobility:g}", *length, mean, 0.0], [f"variance_{count}_{mobility:g}", *spread, variance, 0.0],
+                    [f"load_{count}_{mobility:g}", *load, 1.0, 0.0]]
+    report.table(f"Rows of spheres in a tube of radius {RADIUS:g} D under a piston with a load of {LOAD:g} kT/D.",
+                 ["spheres", "mobility over a sphere's", "mean length, D", "exact", "variance, D2", "exact", "force over load"], rows)
+    draw(report, lengths, count, mean)
+    return numbers
+
+
+def quiet(lengths, forces, variance):
+    """Lengths with the same mean, and less noise. In the mean the force on the piston is its load less the noise, which
+    is 0 in a long run, and moves the length by as much as a load would: by its variance over kT a force."""
+    return lengths + variance * (forces - LOAD)
+
+
+def draw(report, lengths, count, mean):
     figure, panel = figures.axes(size=(5.0, 3.2))
     panel.hist(lengths.ravel(), bins=80, density=True, color="C0", alpha=0.6, label="measured")
     panel.axvline(mean, color="black", linewidth=0.8, label="exact mean")
     panel.set(xlabel="length/D", ylabel="probability density")
     panel.legend(frameon=False)
-    report.figure(figure, f"Length of a row of {ROW} spheres under a piston with a load of {LOAD:g} kT/D.")
+    report.figure(figure, f"Length of a row of {count} spheres under a piston with a load of {LOAD:g} kT/D.")
 
 
 def with_blocks(values):
@@ -129,15 +159,15 @@ def spacings(radius):
     return numpy.sqrt(1.0 - apart), weights
 
 
-def length_under_load(load, radius):
+def length_under_load(load, radius, count):
     """Mean and variance, by derivatives of the partition function of theory, section 10."""
     spacing, weights = spacings(radius)
 
     def log_sum(f):
         chain = weights
-        for _ in range(ROW - 1):
+        for _ in range(count - 1):
             chain = weights * (numpy.exp(-f * spacing) @ chain)
-        return -(ROW + 1) * math.log(f) - f + math.log(chain.sum())
+        return -(count + 1) * math.log(f) - f + math.log(chain.sum())
 
     h = 1e-3
     below, here, above = (log_sum(load + d) for d in (-h, 0.0, h))
