@@ -55,8 +55,13 @@ inline constexpr std::size_t serial_limit = 512;
 /// throws what was thrown first.
 template <class Share>
 void for_shares(std::size_t count, bool on_one, Share&& share) {
+    const int threads = team_size(on_one);
+    if (threads == 1) {  // to enter a region takes longer than many a loop
+        share(std::size_t{0}, count);
+        return;
+    }
     std::exception_ptr thrown;  // it may not leave the thread
-#pragma omp parallel num_threads(team_size(on_one))
+#pragma omp parallel num_threads(threads)
     try {
         const auto [begin, end] = own_share(count);
         share(begin, end);
