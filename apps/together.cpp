@@ -5,6 +5,7 @@
 #include "jostle/disk/checksum.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/run_files/version.hpp"
+#include "jostle/scene/pressure_control.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "run_record.hpp"
 
@@ -36,8 +37,7 @@ void Together::require_ready(const Scene& scene) const {
                               .suggestion = "Start the run without a launcher, or without the key"});
     };
     refuse_if(grows(scene) && swims(scene), "growth.rate", "swimmers that grow are");
-    refuse_if(scene.pressure.external && thermal_energy(scene) == 0.0, "pressure.external",
-              "compression without thermal motion is");
+    refuse_if(compresses(scene) && !is_piston(scene), "pressure.external", "compression without thermal motion is");
     refuse_if(scene.mobility.model == MobilityModel::hydrodynamic, "mobility.model", "rods that a fluid couples are");
     refuse_if(scene.solver.method != SolverMethod::automatic && scene.solver.method != SolverMethod::projected_sor,
               "solver.method", "solvers for comparison are");

@@ -26,10 +26,6 @@ constexpr double mobility_of_piston = 0.1;
 /// Viscosities over the pressure: rods in suspension resist as 100 viscosities at a volume fraction of some 0.6.
 constexpr double viscosities = 100.0;
 
-bool is_piston(const Scene& scene) {
-    return scene.pressure.coupling == StrainCoupling::piston;
-}
-
 /// Of a rod of mean size alone.
 double diffusion_of_a_rod(const Scene& scene) {
     const RodMobility rod = capsule_drag(scene.rods.length, scene.rods.diameter, scene.fluid.viscosity);
@@ -37,6 +33,10 @@ double diffusion_of_a_rod(const Scene& scene) {
 }
 
 }  // namespace
+
+bool is_piston(const Scene& scene) {
+    return scene.pressure.coupling == StrainCoupling::piston;
+}
 
 bool compresses(const Scene& scene) {
     return scene.pressure.external && thermal_energy(scene) == 0.0;

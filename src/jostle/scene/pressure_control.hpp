@@ -13,6 +13,8 @@ namespace jostle {
 /// Whether a bath compresses rods without thermal motion.
 bool compresses(const Scene& scene);
 
+bool is_piston(const Scene& scene);
+
 /// The direction whose upper plane is the piston, 0 to 2.
 int piston_direction(const Scene& scene);
 

@@ -49,7 +49,7 @@ PressureControl control_of(const Scene& scene, const Rods& rods, double kT) {
     const int piston = piston_direction(scene);
     const double edge = box_edges(scene, total_volume(rods, dimensions_of(scene)))[piston];
     const double count = static_cast<double>(rods.size()), time = pressure_relaxation_time(scene, count, edge);
-    const bool plane = scene.pressure.coupling == StrainCoupling::piston;
+    const bool plane = is_piston(scene);
     const bool each = scene.pressure.coupling == StrainCoupling::orthogonal;
     PressureControl control = {*scene.pressure.external,
                                plane  ? Moves::plane
