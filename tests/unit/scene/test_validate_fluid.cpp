@@ -36,6 +36,11 @@ TEST_CASE("with a fluid, what is known passes") {
     CHECK(refused_key([](Scene& s) { s.mobility.tolerance = 1e-6; }) == "");
     CHECK(refused_key([](Scene& s) { s.mobility.cutoff = 3.0; }) == "");
     CHECK(refused_key([](Scene& s) { s.solver.method = SolverMethod::bbpgd; }) == "");
+    CHECK(refused_key([](Scene& s) { s.solver.tolerance = 1e-8; }) == "");
+    CHECK(refused_key([](Scene& s) {
+              s.solver.tolerance = 1e-10;
+              s.box.periodic = {false, false, false};
+          }) == "");
     for (const double length : {5.0, 0.0})
         for (const double dipole : {0.0, 2.0, -2.0})
             CHECK(refused_key([&](Scene& s) {
@@ -55,6 +60,7 @@ TEST_CASE("with a fluid, what is not known is refused, one line each") {
           }) == "rods.count");
     CHECK(refused_key([](Scene& s) { s.mobility.cutoff = 0.9; }) == "mobility.cutoff");
     CHECK(refused_key([](Scene& s) { s.mobility.cutoff = 20.5; }) == "mobility.cutoff");
+    CHECK(refused_key([](Scene& s) { s.solver.tolerance = 0.9e-8; }) == "solver.tolerance");
     CHECK(refused_key([](Scene& s) { s.mobility.tolerance = 1e-7; }) == "mobility.tolerance");
     CHECK(refused_key([](Scene& s) { s.motion.force_dipole = 0.1; }) == "motion.force_dipole");  // nothing swims
     CHECK(refused_key([](Scene& s) { s.schedule.kT.push_back({5.0, 2.0}); }) == "schedule.kT");
