@@ -146,7 +146,6 @@ TEST_CASE("a sphere in the flow of one swimmer turns by half its vorticity") {
 // are (F exp(-k^2 s/2) + i/2 k x T exp(-k^2 s'/2)), and so are velocity and turning of the other.
 TEST_CASE("couples in a periodic box: against the sum over waves, for a force, a couple and a swimmer's dipole") {
     const Vec3 edges{7, 8, 9};
-    const std::complex<double> i(0, 1);
     const Rods rods = two_spheres({1.1, -0.7, 0.6});
     const double spread = blobs_of(rods, viscosity).spread(), of_couple = couple_spread(1.0);
     const Vec3 force{1, -0.4, 2}, torque = across(rods, 0, {0.4, 1, -2});
