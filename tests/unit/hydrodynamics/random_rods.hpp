@@ -18,9 +18,11 @@ public:
     /// Rods anywhere: they may overlap.
     Rods rods(std::size_t count, double length, const Vec3& edges) {
         Rods rods;
-        for (std::size_t i = 0; i < count; ++i)
-            rods.push_back(i, {edges.x * uniform(), edges.y * uniform(), edges.z * uniform()}, normalised(vector()),
-                           length, 1.0);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vec3 axis = normalised(vector());  // before the centre, whatever the compiler
+            const Vec3 centre{edges.x * uniform(), edges.y * uniform(), edges.z * uniform()};
+            rods.push_back(i, centre, axis, length, 1.0);
+        }
         return rods;
     }
     Forces forces(const Rods& rods) {
