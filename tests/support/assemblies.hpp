@@ -23,8 +23,9 @@ inline Rods thrown(std::size_t count, const Box& box, double length, double diam
         const Vec3 centre{uniform(engine) * box.edges().x, uniform(engine) * box.edges().y,
                           uniform(engine) * box.edges().z};
         const double scale = 0.5 + 0.5 * uniform(engine);
-        rods.push_back(k, centre, random_direction(engine), k % 5 == 0 ? 0.0 : scale * length,
-                       diameter * (0.7 + 0.3 * uniform(engine)));
+        const double thickness = 0.7 + 0.3 * uniform(engine);  // before the axis, whatever the compiler
+        const Vec3 axis = random_direction(engine);
+        rods.push_back(k, centre, axis, k % 5 == 0 ? 0.0 : scale * length, diameter * thickness);
     }
     return rods;
 }
@@ -62,6 +63,19 @@ inline std::vector<BrutePair> brute_force_pairs(const Rods& rods, const Box& box
                         if (gap < range) pairs.push_back({i, j, image, gap});
                     }
     return pairs;
+}
+
+/// The contacts of all pairs of different rods with a gap below `range`.
+inline Contacts contacts_of_pairs(const Rods& rods, const Box& box, double range) {
+    Contacts contacts;
+    for (const auto& [i, j, image, gap] : brute_force_pairs(rods, box, range)) {
+        if (i == j) continue;
+        const PairGeometry pair = pair_geometry(rods, i, j, box.displacement(image), rods.centre, rods.axis);
+        const NearestPoints nearest = nearest_points(pair);
+        append_contacts({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), image}, pair, nearest,
+                        norm(nearest.separation), range, 3, contacts);
+    }
+    return contacts;
 }
 
 /// The gap of contact `l` when the rods lie elsewhere: `centre` and `axis` replace those of `rods`.

@@ -29,7 +29,7 @@ WaveFactors::WaveFactors(const Vec3& edges, const EwaldSplit& split, double spre
         Waves& waves = along_[static_cast<std::size_t>(d)];
         const std::size_t points = split.grid[static_cast<std::size_t>(d)];
         for (std::size_t n = 0; n < points; ++n) {
-            const double number = static_cast<double>(n) - (2 * n > points ? static_cast<double>(points) : 0.0);
+            const double number = wave_number(n, points);
             const double k = 2.0 * pi * number / edges[d];
             const double transform = kernel.transform(2.0 * pi * number / static_cast<double>(points));
             waves.number.push_back(k);
@@ -48,15 +48,10 @@ FarField::FarField(const Rods& rods, const Box& box, const RodBlobs& blobs, cons
 
 /// From waves of forces to those of the flow.
 void FarField::solve() const {
-    const auto [nx, ny, nz] = grid_->points();
-    const std::size_t wx = grid_->waves_along_x(), rows = ny;
-    parallel_for_parts(nz, [&](std::size_t z) {
-        for (std::size_t y = 0; y < rows; ++y)
-            for (std::size_t x = 0; x < wx; ++x) {
-                WaveVector& v = grid_->waves[(z * rows + y) * wx + x];
-                const double multiplier = factors_.factor(x, y, z);
-                v = multiplier == 0.0 ? WaveVector{} : solenoidal(multiplier, factors_.wave(x, y, z), v);
-            }
+    grid_->for_each_wave([&](std::size_t wave, std::size_t x, std::size_t y, std::size_t z) {
+        WaveVector& v = grid_->waves[wave];
+        const double multiplier = factors_.factor(x, y, z);
+        v = multiplier == 0.0 ? WaveVector{} : solenoidal(multiplier, factors_.wave(x, y, z), v);
     });
 }
 

@@ -43,9 +43,6 @@ public:
     void find_turning(const std::vector<WaveVector>& flow_waves);
 
 private:
-    template <class OfWave>
-    void for_each_wave(OfWave&& of_wave);
-
     const CoupleFactors& factors_;
     FourierGrid& grid_;
 };

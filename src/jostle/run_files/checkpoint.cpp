@@ -103,10 +103,6 @@ void send_rods_of_checkpoint(const RodsInOrder& rods) {
     fields_of({}, rods).write([](std::string_view) {});
 }
 
-std::string packed(const Checkpoint& checkpoint) {
-    return packed(checkpoint, checkpoint.state.rods);
-}
-
 std::string packed(const Checkpoint& checkpoint, const RodsInOrder& rods) {
     const FieldWriter fields = fields_of(checkpoint, rods);
     std::string bytes;

@@ -50,11 +50,9 @@ void send_rods_of_checkpoint(const RodsInOrder& rods);
 /// contents that no run can have written (`impossible_content`).
 Checkpoint read_checkpoint(const std::string& path);
 
-/// A checkpoint as bytes, for another process of the same program; and back. Errors: std::out_of_range if they are not
-/// whole.
-std::string packed(const Checkpoint& checkpoint);
-/// The same with these rods in the place of the checkpoint's own, for the first of the ranks that share them; all call
-/// it together.
+/// A checkpoint as bytes, with these rods in the place of its own, for another process of the same program; where ranks
+/// share the rods the first one gets it, and all call it together. And back. Errors: std::out_of_range if the bytes are
+/// not whole.
 std::string packed(const Checkpoint& checkpoint, const RodsInOrder& rods);
 Checkpoint unpacked(std::string_view bytes);
 

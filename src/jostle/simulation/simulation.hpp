@@ -50,9 +50,7 @@ public:
     const Domain& domain() const { return domain_; }
     /// How many rods all ranks have together.
     std::size_t rods_in_all() const { return domain_.is_shared() ? shared_rods_ : state_.rods.size(); }
-    /// The state of all ranks, in the order of ids, for rank 0; for the others one without rods.
-    State whole_state() const;
-    /// The same without its rods.
+    /// The state of all ranks but for their rods, its forces in the order of ids, for rank 0.
     State state_without_rods() const;
     /// The rods of all ranks, for a file.
     RodsInOrder rods_in_order() const { return {state_.rods, domain_}; }

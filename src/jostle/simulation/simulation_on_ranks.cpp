@@ -214,18 +214,13 @@ State Simulation::state_without_rods() const {
     return state;
 }
 
-State Simulation::whole_state() const {
-    State whole = state_without_rods();
-    whole.rods = rods_in_order().whole();
-    return whole;
-}
-
 void Simulation::unite() {
     searches_ = ContactSearches();
     known_ = KnownMotion();
     half_way_axis_ = std::vector<Vec3>();
     if (!domain_.is_shared()) return;
-    State whole = whole_state();
+    State whole = state_without_rods();
+    whole.rods = rods_in_order().whole();
     rows_change();
     state_ = std::move(whole);
     domain_ = Domain();

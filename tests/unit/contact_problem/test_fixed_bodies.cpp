@@ -47,14 +47,8 @@ struct Crowd {
     Rods rods;
     Contacts contacts;
 
-    explicit Crowd(std::mt19937_64& engine) : rods(test::thrown(30, box, 4.0, 1.0, engine)) {
-        for (const auto& [i, j, image, gap] : test::brute_force_pairs(rods, box, 0.3)) {
-            if (i == j) continue;
-            const PairGeometry pair = pair_geometry(rods, i, j, box.displacement(image), rods.centre, rods.axis);
-            const NearestPoints nearest = nearest_points(pair);
-            append_contacts({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), image}, pair, nearest,
-                            norm(nearest.separation), 0.3, 3, contacts);
-        }
+    explicit Crowd(std::mt19937_64& engine)
+        : rods(test::thrown(30, box, 4.0, 1.0, engine)), contacts(test::contacts_of_pairs(rods, box, 0.3)) {
         for (std::uint32_t row = 0; row < rods.size(); row += 3) {
             const double half = 0.5 * rods.length[row];
             const Vec3 normal = test::random_direction(engine);

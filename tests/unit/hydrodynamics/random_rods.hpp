@@ -4,8 +4,12 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <span>
+#include <vector>
 
+#include "jostle/math/random.hpp"
 #include "jostle/mobility/mobility.hpp"
+#include "jostle/rods/space_filling_order.hpp"
 
 namespace jostle {
 
@@ -66,9 +70,65 @@ inline std::array<double, 2> errors(const Velocities& found, const Velocities& e
     return {std::sqrt(wrong[0] / all[0]), std::sqrt(wrong[1] / all[1])};
 }
 
+/// How far noise is from having the covariance M, <(y.U)^2> = y.M y with the forces y: of the deviations in standard
+/// errors the mean of the squares, and the mean.
+struct NoiseDeviation {
+    double chi_squared = 0.0, mean = 0.0;
+};
+
+inline NoiseDeviation deviation_of_noise(const MobilityOperator& mobility, std::span<const Forces> forces, int samples,
+                                         std::uint64_t seed) {
+    const auto vectors = static_cast<double>(forces.size());
+    std::vector<double> expected, squares(forces.size(), 0.0);
+    for (const Forces& vector : forces) {
+        Velocities u;
+        mobility.apply(vector, u);
+        expected.push_back(4.0 * power(u, vector));
+    }
+    for (int step = 0; step < samples; ++step) {
+        Velocities u(forces.front().size());
+        mobility.add_square_root({seed, static_cast<std::uint64_t>(step), Stream::brownian, 0}, 2.0, u);
+        for (std::size_t k = 0; k < forces.size(); ++k) squares[k] += std::pow(power(u, forces[k]), 2.0) / samples;
+    }
+    NoiseDeviation found;
+    for (std::size_t k = 0; k < forces.size(); ++k) {
+        const double deviation = (squares[k] / expected[k] - 1.0) / std::sqrt(2.0 / samples);
+        found.chi_squared += deviation * deviation / vectors;
+        found.mean += deviation / vectors;
+    }
+    return found;
+}
+
 inline bool same_bits(const Velocities& a, const Velocities& b) {
     return std::equal(a.linear.begin(), a.linear.end(), b.linear.begin()) &&
            std::equal(a.angular.begin(), a.angular.end(), b.angular.begin());
+}
+
+/// Whether motion(rods, forces, threads), velocities of all rods, has the same bits for any number of threads and any
+/// order of rows. The number of rods is no multiple of 7.
+template <class Motion>
+bool has_same_bits_always(const Rods& rods, const Forces& forces, Motion&& motion) {
+    std::vector<std::uint32_t> shuffled(rods.size());
+    for (std::uint32_t k = 0; k < shuffled.size(); ++k)
+        shuffled[k] = (k * 7 + 3) % static_cast<std::uint32_t>(shuffled.size());
+    const Rods other = reordered(rods, shuffled);
+    Forces other_forces(rods.size());
+    for (std::size_t k = 0; k < rods.size(); ++k) {
+        other_forces.force[k] = forces.force[shuffled[k]];
+        other_forces.torque[k] = forces.torque[shuffled[k]];
+    }
+    const Velocities expected = motion(rods, forces, 1);
+    bool same = same_bits(motion(rods, forces, 3), expected);
+    for (const int threads : {1, 2}) {
+        const Velocities found = motion(other, other_forces, threads);
+        Velocities in_order(rods.size());
+        for (std::size_t k = 0; k < rods.size(); ++k) {
+            in_order.linear[shuffled[k]] = found.linear[k];
+            in_order.angular[shuffled[k]] = found.angular[k];
+        }
+        same = same && same_bits(in_order, expected);
+    }
+    return same;
 }
 
 }  // namespace jostle

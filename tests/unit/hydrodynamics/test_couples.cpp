@@ -306,25 +306,11 @@ TEST_CASE("with couples noise has the covariance M") {
             const auto model = fluid();
             const auto mobility = model.at(rods, box);
             std::vector<Forces> forces;
-            std::vector<double> expected, squares(vectors, 0.0);
             for (int k = 0; k < vectors; ++k) {
                 forces.push_back(chance.forces(rods));
                 if (k % 2 == 0) forces.back().force.assign(rods.size(), Vec3{});
-                Velocities u;
-                mobility->apply(forces.back(), u);
-                expected.push_back(4.0 * power(u, forces.back()));
             }
-            for (std::uint64_t step = 0; step < samples; ++step) {
-                Velocities u(rods.size());
-                mobility->add_square_root({seed, step, Stream::brownian, 0}, 2.0, u);
-                for (std::size_t k = 0; k < vectors; ++k) squares[k] += std::pow(power(u, forces[k]), 2.0) / samples;
-            }
-            double chi_squared = 0.0, mean = 0.0;
-            for (std::size_t k = 0; k < vectors; ++k) {
-                const double deviation = (squares[k] / expected[k] - 1.0) / std::sqrt(2.0 / samples);
-                chi_squared += deviation * deviation / vectors;
-                mean += deviation / vectors;
-            }
+            const auto [chi_squared, mean] = deviation_of_noise(*mobility, forces, samples, seed);
             MESSAGE("chi squared by degree of freedom ", chi_squared, ", mean deviation ", mean, " standard errors");
             CHECK(std::fabs(chi_squared - 1.0) < 5.0 * std::sqrt(2.0 / vectors));
             CHECK(std::fabs(mean) < 5.0 / std::sqrt(vectors));
@@ -337,14 +323,6 @@ TEST_CASE("with couples flow, noise and drift have the same bits for any number 
         const Box box{{22, 20, 18}, {periodic, periodic, periodic}};
         const Rods rods = spheres_and_rods(chance, 300, 2.0, box.edges());
         const Forces forces = chance.forces(rods);
-        std::vector<std::uint32_t> shuffled(rods.size());
-        for (std::uint32_t k = 0; k < shuffled.size(); ++k) shuffled[k] = (k * 7 + 3) % 600;  // 7 and 600: coprime
-        const Rods other = reordered(rods, shuffled);
-        Forces other_forces(rods.size());
-        for (std::size_t k = 0; k < rods.size(); ++k) {
-            other_forces.force[k] = forces.force[shuffled[k]];
-            other_forces.torque[k] = forces.torque[shuffled[k]];
-        }
         const auto all_of = [&](const Rods& these, const Forces& pushed, int threads) {
             parallel::set_thread_count(threads);
             const auto model = fluid();
@@ -355,15 +333,7 @@ TEST_CASE("with couples flow, noise and drift have the same bits for any number 
             mobility->add_axial_flow({.kT = 0.8, .dipole = std::vector<double>(these.size(), 3.0)}, u);
             return u;
         };
-        const Velocities expected = all_of(rods, forces, 1);
-        CHECK(same_bits(all_of(rods, forces, 3), expected));
-        const Velocities found = all_of(other, other_forces, 2);
-        Velocities in_order(rods.size());
-        for (std::size_t k = 0; k < rods.size(); ++k) {
-            in_order.linear[shuffled[k]] = found.linear[k];
-            in_order.angular[shuffled[k]] = found.angular[k];
-        }
-        CHECK(same_bits(in_order, expected));
+        CHECK(has_same_bits_always(rods, forces, all_of));
     }
     parallel::set_thread_count(1);
 }
