@@ -16,9 +16,10 @@ namespace {
 
 /// The run of a rank that is not the first.
 ExitCode accompany(const RunOptions& options, Together& together) {
-    std::optional<Checkpoint> told = together.wait_for_first();
-    if (!told) return ExitCode::done;
     if (options.threads) parallel::set_thread_count(*options.threads, "--threads");
+    parallel::thread_count();  // looks at OMP_NUM_THREADS: what only this rank meets is no error of a start
+    std::optional<Checkpoint> told = together.wait_for_first(options.scene);
+    if (!told) return ExitCode::done;
     RunScene scene{options.scene, std::move(told->scene), {}, {}};
     scene.scene = parse_scene(scene.text, scene.path);
     StepSums sums = StepSums::from_named(std::move(told->sums), scene.scene, told->state.box);
@@ -47,9 +48,11 @@ ExitCode launched_run(const RunOptions& options, const std::function<ExitCode(To
     };
     const std::string who = together.is_first() ? "" : fmt::format("rank {} of {}: ", ranks.rank(), ranks.count());
     const int code = exit_status(play_part, who);
-    if (together.is_first() && !together.have_begun())
+    stop_request::say_nothing();  // a launcher may end those that are left by a signal: all has been said
+    using enum Together::Others;
+    if (together.is_first() && together.others() == wait)
         together.call_off();
-    else if (!has_ended)
+    else if (!has_ended && together.others() != leave)
         launched.give_up(code);
     return static_cast<ExitCode>(static_cast<int>(ranks.largest(code)));
 }

@@ -15,6 +15,7 @@
 #include "jostle/scene_file/scene_settings.hpp"
 #include "jostle/scene_file/scene_writer.hpp"
 #include "jostle/setup/assemble.hpp"
+#include "jostle/setup/start.hpp"
 #include "launched_run.hpp"
 #include "run.hpp"
 #include "start_entry.hpp"
@@ -78,14 +79,16 @@ std::string freed(const std::string& folder, bool quiet) {
 ExitCode start_run(const RunOptions& options, const RunScene& scene, std::string folder, Together& together) {
     together.require_ready(scene.scene);  // before the time that a dense start takes
     require_place_for_run(folder);
-    const Scene::RodsTable& rods = scene.scene.rods;
-    const bool draws = rods.start == StartKind::random || rods.start == StartKind::aligned;
-    if (draws && rods.count >= many_to_place && !options.quiet && !options.json)
-        std::fprintf(stderr, "jostle: placing %llu rods without overlap\n",
-                     static_cast<unsigned long long>(rods.count));
+    const std::uint64_t count = scene.scene.rods.count;
+    if (places_are_drawn(scene.scene) && count >= many_to_place && !options.quiet && !options.json)
+        std::fprintf(stderr, "jostle: placing %llu rods without overlap\n", static_cast<unsigned long long>(count));
     // The start is made before anything is touched on the disk: a scene that does not work out leaves no trace.
     StartWatch watch(options);
-    Beginning beginning = beginning_of(scene.scene, scene.path, [&](const Annealing& now) { watch.see(now); });
+    Beginning beginning = beginning_of(
+        scene.scene, scene.path, [&](const Annealing& now) { watch.see(now); },
+        [&](const Scene&, const Box& box, const std::optional<Rods>& from_file, const AnnealingWatch& see) {
+            return together.make_start(scene, box, from_file, see);
+        });
     const nlohmann::ordered_json start = start_entry(scene.scene, beginning);
     if (!options.quiet && !options.json) std::fputs(start_text(start, watch.seconds()).c_str(), stderr);
     Simulation simulation = assemble(scene.scene, std::move(beginning.state));

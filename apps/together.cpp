@@ -7,11 +7,17 @@
 #include "jostle/run_files/version.hpp"
 #include "jostle/scene/pressure_control.hpp"
 #include "jostle/scene/scene_motion.hpp"
+#include "jostle/scene_file/scene_reader.hpp"
+#include "jostle/setup/start.hpp"
 #include "run_record.hpp"
+#include "start_watch.hpp"
 
 using namespace jostle;
 
 namespace {
+
+/// What the first tells begins with: what is to be made of it.
+constexpr char a_start = 's', a_run = 'r';
 
 std::vector<std::string> hosts_of(const Ranks& ranks) {
     const std::string own = host_name();
@@ -43,20 +49,49 @@ void Together::require_ready(const Scene& scene) const {
               "solver.method", "solvers for comparison are");
 }
 
+Rods Together::make_start(const RunScene& scene, const Box& box, const std::optional<Rods>& from_file,
+                          const AnnealingWatch& watch) {
+    if (ranks_.alone() || !places_are_drawn(scene.scene)) return jostle::make_start(scene.scene, box, from_file, watch);
+    const Rods none;
+    ranks_.of_first(a_start + packed({scene.text, {box, {}}, {}, {}}, none));
+    others_ = Others::work;
+    try {
+        Rods rods = jostle::make_start(scene.scene, box, from_file, watch, ranks_);
+        others_ = Others::wait;
+        return rods;
+    } catch (const InputError&) {
+        others_ = Others::leave;
+        throw;
+    } catch (const StartOutOfTime&) {
+        others_ = Others::leave;
+        throw;
+    }
+}
+
 void Together::begin(const RunScene& scene, const Simulation& simulation, const StepSums& sums) {
-    have_begun_ = true;
+    others_ = Others::work;
     if (ranks_.alone()) return;
-    ranks_.of_first(packed(checkpoint_without_rods(simulation, sums, scene.text), simulation.rods_in_order()));
+    ranks_.of_first(a_run + packed(checkpoint_without_rods(simulation, sums, scene.text), simulation.rods_in_order()));
 }
 
 void Together::call_off() const {
     ranks_.of_first("");
 }
 
-std::optional<Checkpoint> Together::wait_for_first() const {
-    const std::string told = ranks_.of_first("");
-    if (told.empty()) return std::nullopt;
-    return unpacked(told);
+std::optional<Checkpoint> Together::wait_for_first(const std::string& scene_path) const {
+    for (;;) {
+        const std::string told = ranks_.of_first("");
+        if (told.empty()) return std::nullopt;
+        Checkpoint begun = unpacked(std::string_view(told).substr(1));
+        if (told[0] == a_run) return begun;
+        try {
+            jostle::make_start(parse_scene(begun.scene, scene_path), begun.state.box, std::nullopt, {}, ranks_);
+        } catch (const InputError&) {  // the first one says it
+            return std::nullopt;
+        } catch (const StoppedElsewhere&) {
+            return std::nullopt;
+        }
+    }
 }
 
 void require_same_command(const Ranks& ranks, const RunOptions& options) {

@@ -18,8 +18,10 @@
 #include "jostle/setup/remove_overlaps.hpp"
 #include "jostle/setup/scattered_rods.hpp"
 #include "jostle/setup/start.hpp"
+#include "support/sanitizers.hpp"
 
 using namespace jostle;
+using jostle::test::under_thread_sanitizer;
 
 namespace {
 
@@ -192,17 +194,6 @@ TEST_CASE("swimmers that tumble and turn round: the same bits after 30 steps wit
     scene.motion = {true, 2.0, 0.5, 5.0, 0.2, 5.0};
     check_steps_with_every_thread_count(scene);
 }
-
-/// The thread sanitizer takes a hundred times as long: annealed starts are left out, Monte Carlo makes one sweep.
-#if defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-constexpr bool under_thread_sanitizer = true;
-#else
-constexpr bool under_thread_sanitizer = false;
-#endif
-#else
-constexpr bool under_thread_sanitizer = false;
-#endif
 
 TEST_CASE("a random start has the same bits with 1, 2 and 4 threads" * doctest::skip(under_thread_sanitizer)) {
     const Scene scene = crowd(parallel::serial_limit + 8, 5.0, 0.16);  // which is annealed

@@ -231,8 +231,7 @@ Rods Domain::all_rods(const Rods& rods) const {
     for (std::size_t row = 0; row < owned_; ++row) own.push_back(carried(rods, row));
     Rods all;
     all.founder_bits = rods.founder_bits;
-    for (const auto& of_rank : ranks_.deal(std::vector(static_cast<std::size_t>(ranks_.count()), own)))
-        for (const CarriedRod& rod : of_rank) append(all, rod, carries);
+    for (const CarriedRod& rod : ranks_.gather_at_all(std::move(own))) append(all, rod, carries);
     return all;
 }
 

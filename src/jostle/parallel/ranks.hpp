@@ -159,6 +159,16 @@ public:
         return all;
     }
 
+    /// The items of all ranks, those of one after those of the other, for all.
+    template <class T>
+    std::vector<T> gather_at_all(std::vector<T> here) const {
+        if (alone()) return here;
+        std::vector<T> all;
+        for (const auto& of_rank : deal(std::vector(static_cast<std::size_t>(count()), here)))
+            all.insert(all.end(), of_rank.begin(), of_rank.end());
+        return all;
+    }
+
     /// Not for one alone.
     std::unique_ptr<Exchange> exchange(std::vector<Exchange::Peer> peers) const {
         auto exchange = link_->exchange(std::move(peers));

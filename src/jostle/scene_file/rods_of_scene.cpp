@@ -200,7 +200,7 @@ std::vector<Spring> springs_from_file(const Scene& scene, const std::filesystem:
 namespace {
 
 Beginning beginning_from(const Scene& scene, const std::filesystem::path& scene_path, std::optional<GivenRods> given,
-                         const AnnealingWatch& watch) {
+                         const AnnealingWatch& watch, const StartMaker& make) {
     std::optional<Rods> from_file;
     if (given) from_file = std::move(given->rods);
     const Box box = box_of(scene, from_file).with_fixed_rods(fixed_rods(scene, scene_path));
@@ -215,7 +215,7 @@ Beginning beginning_from(const Scene& scene, const std::filesystem::path& scene_
     require_countable_steps(scene, step);
     require_short_step(step_limits(scene, *model, box, rods, springs), step);
     make_field(scene, box);  // for what it refuses
-    beginning.state.rods = make_start(scene, box, from_file, [&](const Annealing& now) {
+    beginning.state.rods = make(scene, box, from_file, [&](const Annealing& now) {
         beginning.annealing = now;
         if (watch) watch(now);
     });
@@ -225,15 +225,21 @@ Beginning beginning_from(const Scene& scene, const std::filesystem::path& scene_
 
 }  // namespace
 
-Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_path, const AnnealingWatch& watch) {
+Rods make_start_alone(const Scene& scene, const Box& box, const std::optional<Rods>& from_file,
+                      const AnnealingWatch& watch) {
+    return make_start(scene, box, from_file, watch);
+}
+
+Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_path, const AnnealingWatch& watch,
+                       const StartMaker& make) {
     return in_scene_file(scene_path,
-                         [&] { return beginning_from(scene, scene_path, given_rods(scene, scene_path), watch); });
+                         [&] { return beginning_from(scene, scene_path, given_rods(scene, scene_path), watch, make); });
 }
 
 Beginning beginning_of(const Scene& scene, Rods rods) {
     if (!rods.speed.empty()) require_swimming(scene, "what is given");
     require_fit(scene, rods, "what is given");
-    return beginning_from(scene, {}, GivenRods{std::move(rods), {}}, {});
+    return beginning_from(scene, {}, GivenRods{std::move(rods), {}}, {}, make_start_alone);
 }
 
 }  // namespace jostle

@@ -1,12 +1,14 @@
 #include "jostle/setup/anneal.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <span>
 #include <vector>
 
 #include "jostle/mobility/drag_mobility.hpp"
 #include "jostle/motion/brownian_motion.hpp"
 #include "jostle/parallel/parallel_for.hpp"
+#include "jostle/parallel/sum_over_ranks.hpp"
 #include "jostle/rods/space_filling_order.hpp"
 #include "jostle/setup/monte_carlo.hpp"
 #include "jostle/simulation/simulation.hpp"
@@ -50,11 +52,11 @@ bool hinder_each_other(const Rods& rods) {
 
 class Annealer {
 public:
-    Annealer(Rods& rods, const Box& box, std::uint64_t seed, const AnnealingWatch& watch)
-        : rods_(rods), box_(box), seed_(seed), watch_(watch) {}
+    Annealer(Rods& rods, const Box& box, std::uint64_t seed, const AnnealingWatch& watch, const Ranks& ranks)
+        : rods_(rods), box_(box), seed_(seed), watch_(watch), ranks_(ranks) {}
 
     OverlapRemovalResult anneal() {
-        rods_ = reordered(rods_, space_filling_order(rods_, box_));
+        put_in_order();
         if (hinder_each_other(rods_)) let_overlap();
         OverlapRemovalResult result = remove_overlaps(rods_, box_, mobility_);
         if (!result.apart) return result;
@@ -68,8 +70,10 @@ public:
     }
 
 private:
+    void put_in_order() { rods_ = reordered(rods_, space_filling_order(rods_, box_)); }
+
     void let_overlap() {
-        MonteCarlo rods(rods_, box_, seed_);
+        MonteCarlo rods(rods_, box_, seed_, ranks_);
         const double enough = few_overlaps * static_cast<double>(rods_.size());
         double share_placed = 1.0;
         for (double price = 0.0; price < last_price;) {
@@ -103,16 +107,18 @@ private:
         Z_.clear();
         order_.clear();
         Simulation simulation = brownian(stretch);
+        simulation.share(ranks_);
         for (int k = 0; k < stretch.steps; ++k) {
             const StepReport report = simulation.step();
             if (report.status != LcpStatus::converged) break;
             Z_.push_back(1.0 +
                          trace(report.collision_virial) / (box_.dimensions() * static_cast<double>(rods_.size())));
-            order_.push_back(nematic_order(simulation.rods().axis, box_.dimensions()).order);
+            order_.push_back(order_of(simulation));
             ++done_.steps;
             tell();
         }
-        rods_ = simulation.rods();
+        rods_ = ranks_.alone() ? simulation.rods() : simulation.rods_of_all_ranks();
+        if (!ranks_.alone()) put_in_order();
         if (!Z_.empty()) remove_overlaps(rods_, box_, mobility_);
     }
 
@@ -134,20 +140,37 @@ private:
                           std::move(motions), settings);
     }
 
+    double order_of(const Simulation& simulation) const {
+        const std::vector<Vec3>& axes = simulation.rods().axis;
+        const Mat3 sum = sum_over_ranks<Mat3>(ranks_, simulation.domain().owned_of(axes.size()),
+                                              [&](std::size_t i) { return outer(axes[i], axes[i]); });
+        return nematic_order(sum, rods_.size(), box_.dimensions()).order;
+    }
+
     static double mean(std::span<const double> values) {
         double sum = 0.0;
         for (const double value : values) sum += value;
         return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
     }
 
+    /// All ranks stop where the watch of one does.
     void tell() const {
-        if (watch_) watch_(done_);
+        std::exception_ptr stop;
+        try {
+            if (watch_) watch_(done_);
+        } catch (...) {
+            stop = std::current_exception();
+        }
+        if (!ranks_.any(stop != nullptr)) return;
+        if (stop) std::rethrow_exception(stop);
+        throw StoppedElsewhere();
     }
 
     Rods& rods_;
     const Box& box_;
     std::uint64_t seed_;
     const AnnealingWatch& watch_;
+    Ranks ranks_;
     DragMobility mobility_{overlap_removal_drag(true)};
     Annealing done_;
     std::vector<double> Z_, order_;  ///< of the last stretch, step by step
@@ -155,8 +178,9 @@ private:
 
 }  // namespace
 
-OverlapRemovalResult anneal(Rods& rods, const Box& box, std::uint64_t seed, const AnnealingWatch& watch) {
-    return Annealer(rods, box, seed, watch).anneal();
+OverlapRemovalResult anneal(Rods& rods, const Box& box, std::uint64_t seed, const AnnealingWatch& watch,
+                            const Ranks& ranks) {
+    return Annealer(rods, box, seed, watch, ranks).anneal();
 }
 
 }  // namespace jostle

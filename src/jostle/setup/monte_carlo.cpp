@@ -1,9 +1,11 @@
 #include "jostle/setup/monte_carlo.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "jostle/contact/pair_contacts.hpp"
 #include "jostle/math/random.hpp"
@@ -24,6 +26,14 @@ double longest_of(const Rods& rods) {
     return parallel_max(rods.size(), 0.0, [&](std::size_t i) { return rods.length[i] + rods.diameter[i]; });
 }
 
+MonteCarlo::Moves of_all_ranks(const MonteCarlo::Moves& of, const Ranks& ranks) {
+    std::array<std::int64_t, 4> numbers{};
+    std::ranges::copy(std::array{of.placings, of.placed, of.shifts, of.shifted}, numbers.begin());
+    ranks.add_up(numbers);
+    const auto sum = [&](std::size_t k) { return static_cast<std::uint64_t>(numbers[k]); };
+    return {sum(0), sum(1), sum(2), sum(3)};
+}
+
 /// Rods of other domains may be counting it up, too.
 void count(std::uint32_t& counter, int change) {
     std::atomic_ref(counter).fetch_add(static_cast<std::uint32_t>(change), std::memory_order_relaxed);
@@ -39,10 +49,11 @@ MonteCarlo::Moves& MonteCarlo::Moves::operator+=(const Moves& other) {
     return *this;
 }
 
-MonteCarlo::MonteCarlo(Rods& rods, const Box& box, std::uint64_t seed)
+MonteCarlo::MonteCarlo(Rods& rods, const Box& box, std::uint64_t seed, const Ranks& ranks)
     : rods_(rods),
       box_(box),
       seed_(seed),
+      ranks_(ranks),
       walls_(walls_of(box)),
       fixed_(grid_of_fixed_rods(box, rods)),
       grid_(rods, box, longest_of(rods)),
@@ -76,36 +87,68 @@ MonteCarlo::Moves MonteCarlo::sweep(double price, int placings) {
     std::vector<std::vector<std::uint32_t>> rows(domains.size());
     for (std::size_t i = 0; i < rods_.size(); ++i)
         rows[domains.domain_of(rods_.centre[i])].push_back(static_cast<std::uint32_t>(i));
-    std::vector<Moves> moves(domains.size());
+    const auto count = static_cast<std::size_t>(ranks_.count()), rank = static_cast<std::size_t>(ranks_.rank());
+    Moves sum;
     for (int colour = 0; colour < CellDomains::colours; ++colour) {
-        std::vector<std::size_t> alike;
-        for (std::size_t domain = 0; domain < domains.size(); ++domain)
-            if (domains.colour()[domain] == colour) alike.push_back(domain);
+        std::vector<std::size_t> alike;  // of this rank
+        for (std::size_t domain = 0, n = 0; domain < domains.size(); ++domain)
+            if (domains.colour()[domain] == colour && n++ % count == rank) alike.push_back(domain);
+        std::vector<Changes> changes(alike.size());
         parallel_for_parts(alike.size(), [&](std::size_t k) {
-            const std::size_t domain = alike[k];
-            moves[domain] = move_rods_of({domains, domain, price, {}, {}}, rows[domain], placings);
+            changes[k] = move_rods_of({domains, alike[k], price, {}, {}}, rows[alike[k]], placings);
         });
+        for (const Changes& of_domain : changes) sum += of_domain.moves;
+        if (!ranks_.alone()) tell_others(changes);
     }
     ++sweeps_;
-    Moves sum;
-    for (const Moves& of_domain : moves) sum += of_domain;
-    return sum;
+    return of_all_ranks(sum, ranks_);
 }
 
-MonteCarlo::Moves MonteCarlo::move_rods_of(Site site, std::span<const std::uint32_t> rows, int placings) {
+/// What has happened on one rank happens on all.
+void MonteCarlo::tell_others(std::span<const Changes> changes) {
+    std::vector<Moved> moved;
+    std::vector<Counted> counted;
+    for (const Changes& of_domain : changes) {
+        moved.insert(moved.end(), of_domain.moved.begin(), of_domain.moved.end());
+        counted.insert(counted.end(), of_domain.counted.begin(), of_domain.counted.end());
+    }
+    const auto others = [this](const auto& own, auto&& take) {
+        const auto of_ranks = ranks_.deal(std::vector(static_cast<std::size_t>(ranks_.count()), own));
+        for (std::size_t rank = 0; rank < of_ranks.size(); ++rank)
+            if (rank != static_cast<std::size_t>(ranks_.rank()))
+                for (const auto& one : of_ranks[rank]) take(one);
+    };
+    others(moved, [this](const Moved& rod) { put(rod.row, rod.centre, rod.axis); });
+    others(counted, [this](const Counted& of) { count(overlaps_[of.row], of.change); });
+}
+
+void MonteCarlo::put(std::uint32_t row, const Vec3& centre, const Vec3& axis) {
+    cells_.take_out(row, rods_.centre[row]);
+    rods_.centre[row] = centre;
+    rods_.axis[row] = axis;
+    cells_.put_in(row, centre);
+}
+
+void MonteCarlo::add_overlaps(std::uint32_t row, std::int32_t change, Site& site) {
+    count(overlaps_[row], change);
+    if (!ranks_.alone()) site.changes.counted.push_back({row, change});
+}
+
+MonteCarlo::Changes MonteCarlo::move_rods_of(Site site, std::span<const std::uint32_t> rows, int placings) {
+    Moves& moves = site.changes.moves;
     for (const std::uint32_t row : rows) {
         const RandomKey key{seed_, sweeps_, Stream::monte_carlo, rods_.id[row]};
         std::uint32_t draw = 1;
         for (int k = 0; k < placings; ++k, draw += 2) {
             const double chance = uniform4(key, draw)[3];
-            ++site.moves.placings;
-            if (try_out(row, placing(row, draw, site), chance, site)) ++site.moves.placed;
+            ++moves.placings;
+            if (try_out(row, placing(row, draw, site), chance, site)) ++moves.placed;
         }
         const double chance = uniform4(key, draw)[3];
-        ++site.moves.shifts;
-        if (try_out(row, shift(row, draw), chance, site)) ++site.moves.shifted;
+        ++moves.shifts;
+        if (try_out(row, shift(row, draw), chance, site)) ++moves.shifted;
     }
-    return site.moves;
+    return std::move(site.changes);
 }
 
 MonteCarlo::Trial MonteCarlo::placing(std::uint32_t row, std::uint32_t draw, const Site& site) const {
@@ -162,17 +205,16 @@ bool MonteCarlo::try_out(std::uint32_t row, Trial trial, double uniform, Site& s
     const std::size_t own = own_images(row, trial.axis);
     if (own > most || !find_partners(row, trial, most - own, site.partners)) return false;
 
-    for (const std::uint32_t partner : site.partners) count(overlaps_[partner], 1);
-    const std::size_t overlaps = site.partners.size() + own;
-    if (overlaps_[row] > 0) {
+    for (const std::uint32_t partner : site.partners) add_overlaps(partner, 1, site);
+    const auto before = static_cast<std::int32_t>(overlaps_[row]);
+    const auto overlaps = static_cast<std::int32_t>(site.partners.size() + own);
+    if (before > 0) {
         find_partners(row, {rods_.centre[row], rods_.axis[row]}, rods_.size(), site.partners);
-        for (const std::uint32_t partner : site.partners) count(overlaps_[partner], -1);
+        for (const std::uint32_t partner : site.partners) add_overlaps(partner, -1, site);
     }
-    overlaps_[row] = static_cast<std::uint32_t>(overlaps);
-    cells_.take_out(row, rods_.centre[row]);
-    rods_.centre[row] = trial.centre;
-    rods_.axis[row] = trial.axis;
-    cells_.put_in(row, trial.centre);
+    if (overlaps != before) add_overlaps(row, overlaps - before, site);
+    put(row, trial.centre, trial.axis);
+    if (!ranks_.alone()) site.changes.moved.push_back({row, trial.centre, trial.axis});
     return true;
 }
 

@@ -6,6 +6,7 @@
 
 #include "jostle/contact/cell_grid.hpp"
 #include "jostle/contact/fixed_rod_search.hpp"
+#include "jostle/parallel/ranks.hpp"
 #include "jostle/rods/wall.hpp"
 #include "jostle/setup/cell_domains.hpp"
 #include "jostle/setup/movable_cells.hpp"
@@ -16,11 +17,12 @@ namespace jostle {
 ///
 /// At a price of a few kT rods are nearly as hard ones are, yet get past each other, which long hard ones in a crowd do
 /// not (docs/decisions/0029-annealed-starts.md). They are moved by small steps, and put down anywhere near by. An open
-/// box holds their centres like walls, and walls hold the rods. The same bits for any number of threads.
+/// box holds their centres like walls, and walls hold the rods. The same bits for any number of threads, and of ranks:
+/// each moves the rods of some domains, and tells the others, so that all have all rods.
 class MonteCarlo {
 public:
-    /// `rods` (all that moves) and `box` must outlive this.
-    MonteCarlo(Rods& rods, const Box& box, std::uint64_t seed);
+    /// `rods` (all that moves; the same on all ranks) and `box` must outlive this.
+    MonteCarlo(Rods& rods, const Box& box, std::uint64_t seed, const Ranks& ranks = {});
 
     /// How many moves were tried, and how many were made.
     struct Moves {
@@ -39,17 +41,35 @@ private:
     struct Trial {
         Vec3 centre, axis;
     };
+    /// A rod that was moved, and a change of the number of overlaps of one, as other ranks are told.
+    struct Moved {
+        std::uint32_t row;
+        Vec3 centre, axis;
+    };
+    struct Counted {
+        std::uint32_t row;
+        std::int32_t change;
+    };
+    /// What has happened in a domain.
+    struct Changes {
+        Moves moves;
+        std::vector<Moved> moved;      ///< in this order; none where there are no other ranks
+        std::vector<Counted> counted;  ///< likewise
+    };
     /// What one thread works on.
     struct Site {
         const CellDomains& domains;
         std::size_t domain;
         double price;
         std::vector<std::uint32_t> partners;  ///< that the rod at hand would overlap
-        Moves moves;
+        Changes changes;
     };
 
     void count_overlaps();
-    Moves move_rods_of(Site site, std::span<const std::uint32_t> rows, int placings);
+    Changes move_rods_of(Site site, std::span<const std::uint32_t> rows, int placings);
+    void tell_others(std::span<const Changes> changes);
+    void put(std::uint32_t row, const Vec3& centre, const Vec3& axis);
+    void add_overlaps(std::uint32_t row, std::int32_t change, Site& site);
     Trial placing(std::uint32_t row, std::uint32_t draw, const Site& site) const;
     Trial shift(std::uint32_t row, std::uint32_t draw) const;
     bool leads_out(std::uint32_t row, const Trial& trial, const Site& site) const;
@@ -62,6 +82,7 @@ private:
     Rods& rods_;
     const Box& box_;
     std::uint64_t seed_, sweeps_ = 0;
+    Ranks ranks_;
     std::vector<Wall> walls_;
     FixedRodGrid fixed_;
     CellGrid grid_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "jostle/contact/cell_list.hpp"
@@ -34,14 +35,19 @@ void sort_by_cell(Rows& rows, const Rods& rods, const CellGrid& grid) {
 }
 
 /// Of the rods just drawn, those that overlap a wall, a fixed rod, their own image, one that stays, or one just drawn
-/// with a lower id.
-Rows rows_to_draw_again(const Rods& rods, const Box& box, const MovableCells& cells, const Rows& drawn) {
+/// with a lower id. Each rank looks at a part of those drawn.
+Rows rows_to_draw_again(const Rods& rods, const Box& box, const MovableCells& cells, const Rows& drawn,
+                        const Ranks& ranks) {
+    const auto part_before = [&](int rank) {
+        return drawn.size() * static_cast<std::size_t>(rank) / static_cast<std::size_t>(ranks.count());
+    };
+    const std::size_t begin = part_before(ranks.rank()), end = part_before(ranks.rank() + 1);
     const std::vector<Wall> walls = walls_of(box);
     const FixedRodGrid fixed = grid_of_fixed_rods(box, rods);
-    std::vector<std::uint8_t> stays(rods.size(), 1), again(drawn.size());
+    std::vector<std::uint8_t> stays(rods.size(), 1), again(end - begin);
     for (const std::uint32_t row : drawn) stays[row] = 0;
-    parallel_for(drawn.size(), [&](std::size_t k) {
-        const std::uint32_t row = drawn[k];
+    parallel_for(again.size(), [&](std::size_t k) {
+        const std::uint32_t row = drawn[begin + k];
         again[k] = overlap_with_walls(walls, box.walls(), rods, row) > 0.0 ||
                    overlap_with_fixed_rods(fixed, rods, row) > 0.0 ||
                    cells.any_near(rods.centre[row], [&](std::uint32_t other, const Vec3& displacement) {
@@ -52,9 +58,9 @@ Rows rows_to_draw_again(const Rods& rods, const Box& box, const MovableCells& ce
                    });
     });
     Rows rows;
-    for (std::size_t k = 0; k < drawn.size(); ++k)
-        if (again[k]) rows.push_back(drawn[k]);
-    return rows;
+    for (std::size_t k = 0; k < again.size(); ++k)
+        if (again[k]) rows.push_back(drawn[begin + k]);
+    return ranks.gather_at_all(std::move(rows));
 }
 
 /// Puts the rods in the order of cells, so that those near each other come near each other in memory; `rows` follow.
@@ -67,7 +73,7 @@ void renumber(Rods& rods, const Box& box, double range, Rows& rows) {
 
 }  // namespace
 
-Rods scattered_rods(const Scene& scene, const Box& box, const std::optional<Vec3>& common_axis) {
+Rods scattered_rods(const Scene& scene, const Box& box, const std::optional<Vec3>& common_axis, const Ranks& ranks) {
     Rods rods;
     for (const RodSize& size : rod_sizes(scene))
         rods.push_back(rods.size(), {}, common_axis.value_or(Vec3{}), size.length, size.diameter);
@@ -98,7 +104,7 @@ Rods scattered_rods(const Scene& scene, const Box& box, const std::optional<Vec3
     const auto max_few = static_cast<std::size_t>(few * static_cast<double>(rods.size()));
     for (std::uint32_t draw = 1;; ++draw) {
         sort_by_cell(again, rods, grid);
-        again = rows_to_draw_again(rods, box, cells, again);
+        again = rows_to_draw_again(rods, box, cells, again, ranks);
         if (again.empty() || draw >= (again.size() <= max_few ? max_draws_of_few : max_draws)) break;
         for (const std::uint32_t row : again) cells.take_out(row, rods.centre[row]);
         draw_places(again, draw);

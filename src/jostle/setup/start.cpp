@@ -23,11 +23,12 @@ namespace {
 /// Overlaps below this (in D) in a start read from a file are taken for rounding of the file's decimals.
 constexpr double file_overlap = 1e-3;
 
-Rods at_random(Rods rods, const Box& box, bool turning, const Scene& scene, const AnnealingWatch& watch) {
+Rods at_random(Rods rods, const Box& box, bool turning, const Scene& scene, const AnnealingWatch& watch,
+               const Ranks& ranks) {
     OverlapRemovalResult result;
     result.overlap = largest_overlap(rods, box);
     if (result.overlap > 0.0 && turning)
-        result = anneal(rods, box, scene.seed, watch);
+        result = anneal(rods, box, scene.seed, watch, ranks);
     else
         result = remove_overlaps(rods, box, DragMobility(overlap_removal_drag(turning)));
     if (!result.apart) {
@@ -102,6 +103,10 @@ Rods checked(Rods rods, const Box& box, const Scene& scene) {
 
 }  // namespace
 
+bool places_are_drawn(const Scene& scene) {
+    return scene.rods.start == StartKind::random || scene.rods.start == StartKind::aligned;
+}
+
 std::string start_warning(const Scene& scene, double volume_fraction) {
     const double aspect_ratio = scene.rods.length / scene.rods.diameter,
                  limit = isotropic_limit(aspect_ratio, dimensions_of(scene));
@@ -112,13 +117,15 @@ std::string start_warning(const Scene& scene, double volume_fraction) {
         dimensions_of(scene) == 2 ? "an" : "a", fraction_words(scene), limit, aspect_ratio);
 }
 
-Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& from_file, const AnnealingWatch& watch) {
+Rods make_start(const Scene& scene, const Box& box, const std::optional<Rods>& from_file, const AnnealingWatch& watch,
+                const Ranks& ranks) {
     parallel::suit_thread_count(parallel::worthwhile_thread_count(scene.rods.count));
     switch (scene.rods.start) {
         case StartKind::random:
-            return at_random(scattered_rods(scene, box, std::nullopt), box, true, scene, watch);
+            return at_random(scattered_rods(scene, box, std::nullopt, ranks), box, true, scene, watch, ranks);
         case StartKind::aligned:
-            return at_random(scattered_rods(scene, box, normalised(scene.rods.axis)), box, false, scene, watch);
+            return at_random(scattered_rods(scene, box, normalised(scene.rods.axis), ranks), box, false, scene, watch,
+                             ranks);
         case StartKind::lattice: {
             Rods rods = rods_in_rows(scene, box);
             require_beside_fixed_rods(rods, box, 0.0, {"rods.start", "lattice"});

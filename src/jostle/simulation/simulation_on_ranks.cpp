@@ -110,10 +110,8 @@ void Simulation::gather_forces() {
 std::vector<LineageEvent> Simulation::divide_own() {
     const Ranks& ranks = domain_.ranks();
     Rods own = domain_.own_rods(state_.rods);
-    const auto own_events = growth_->divide(own, state_.box, state_.clock.step, settings_.time_step);
-    std::vector<LineageEvent> events;
-    for (const auto& of_rank : ranks.deal(std::vector(static_cast<std::size_t>(ranks.count()), own_events)))
-        events.insert(events.end(), of_rank.begin(), of_rank.end());
+    std::vector<LineageEvent> events =
+        ranks.gather_at_all(growth_->divide(own, state_.box, state_.clock.step, settings_.time_step));
     if (events.empty()) return events;
     std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
     domain_.replace(state_.rods, std::move(own));
