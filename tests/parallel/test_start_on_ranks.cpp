@@ -62,18 +62,23 @@ TEST_CASE("annealed rods, spheres, mixtures and monolayers: a start has the same
     plane.box.volume_fraction.reset();
     plane.box.area_fraction = 0.4;
     plane.box.dimensions = 2;
-    const std::pair<Scene, int> cases[] = {
+    struct Case {
+        Scene scene;
+        int ranks;
+    };
+    const Case cases[] = {
         {crowd(60, 5.0, 0.25), 2}, {crowd(60, 5.0, 0.25), 5}, {crowd(60, 0.0, 0.45), 3}, {mixture, 3}, {plane, 3}};
-    for (const auto& [scene, ranks] : cases) {
+    for (const Case& one : cases) {
+        const Scene& scene = one.scene;
+        const int ranks = one.ranks;
         CAPTURE(scene.rods.length);
         CAPTURE(ranks);
         const Box box = cube_of(scene);
         int steps = 0;
         const Rods alone = make_start(scene, box, std::nullopt, [&](const Annealing& now) { steps = now.steps; });
         REQUIRE(steps >= 600);  // else nothing was annealed
-        check_same(alone, result_of_last_rank(ranks, [&, &at = scene](const Ranks& of) {
-                       return make_start(at, box, std::nullopt, {}, of);
-                   }));
+        check_same(alone, result_of_last_rank(
+                              ranks, [&](const Ranks& of) { return make_start(scene, box, std::nullopt, {}, of); }));
     }
 }
 
