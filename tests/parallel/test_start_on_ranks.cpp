@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "jostle/error/input_error.hpp"
+#include "jostle/parallel/parallel_for.hpp"
 #include "jostle/scene/scene_box.hpp"
 #include "jostle/scene/scene_walls.hpp"
 #include "jostle/setup/monte_carlo.hpp"
@@ -41,15 +42,11 @@ void check_same(const Rods& a, const Rods& b) {
     CHECK(a.axis == b.axis);
 }
 
-/// What the last of so many ranks has: what it is told by the others is most.
+/// What the last of so many ranks of one thread has: what it is told by the others is most.
 template <class Work>
 auto result_of_last_rank(int count, Work&& work) {
-    decltype(work(std::declval<const Ranks&>())) result{};
-    run_as_ranks(count, [&](const Ranks& ranks) {
-        auto own = work(ranks);
-        if (ranks.rank() == count - 1) result = std::move(own);
-    });
-    return result;
+    parallel::set_thread_count(1);
+    return test::result_of_rank(count - 1, count, work);
 }
 
 }  // namespace
