@@ -143,6 +143,7 @@ def test_an_error_of_another_rank_ends_all(tmp_path):
                             capture_output=True, text=True, timeout=120)
     assert result.returncode == BAD_INPUT, result.stderr
     assert [line for line in lines_of_jostle(result.stderr) if "OMP_NUM_THREADS" in line][0].startswith("jostle: rank 2 of 3: ")
+    assert not (tmp_path / "run").exists()  # no start is made without that rank
     assert on_ranks(tmp_path, 2).returncode == DONE
 
 
