@@ -21,6 +21,10 @@ struct Assembly {
 
 Scene scene_of(const Crowd& crowd) {
     Scene scene;
+    if (crowd.in_fluid) {
+        scene.mobility.model = MobilityModel::hydrodynamic;
+        scene.solver.tolerance = 1e-4;  // as docs/guide/hydrodynamics.md advises
+    }
     scene.seed = 1;
     scene.box.volume_fraction = crowd.volume_fraction;
     scene.rods.count = settled_count;
@@ -45,7 +49,8 @@ const Assembly& settled_assembly(const Crowd& crowd) {
     static std::map<std::string, Assembly> assemblies;
     const auto found = assemblies.find(crowd.name);
     if (found != assemblies.end()) return found->second;
-    const Scene scene = scene_of(crowd);
+    Scene scene = scene_of(crowd);
+    scene.mobility.model = MobilityModel::capsule;  // where rods are in equilibrium does not depend on the fluid
     const double edge =
         std::cbrt(static_cast<double>(settled_count) * rod_volume(crowd.length, 1.0) / crowd.volume_fraction);
     const Box box{{edge, edge, edge}};
@@ -105,9 +110,20 @@ const std::vector<Crowd>& all_crowds() {
     return crowds;
 }
 
+const std::vector<Crowd>& crowds_in_fluid() {
+    using enum StartKind;
+    static const std::vector<Crowd> crowds = {
+        {"fluid/rods/0.10", 5.0, 0.10, random, 0.0, 1000, true},
+        {"fluid/rods/0.40", 5.0, 0.40, random, 0.0, 1000, true},
+        {"fluid/spheres/0.10", 0.0, 0.10, random, 0.0, 1000, true},
+    };
+    return crowds;
+}
+
 const Crowd& crowd_named(const std::string& name) {
-    for (const Crowd& crowd : all_crowds())
-        if (crowd.name == name) return crowd;
+    for (const std::vector<Crowd>* crowds : {&all_crowds(), &crowds_in_fluid()})
+        for (const Crowd& crowd : *crowds)
+            if (crowd.name == name) return crowd;
     throw std::out_of_range("no state of the name " + name);
 }
 

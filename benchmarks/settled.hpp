@@ -15,6 +15,7 @@ struct Crowd {
     jostle::StartKind start = jostle::StartKind::random;
     double self_propulsion = 0.0;  ///< U_0 D/(kT mobility along the axis): a Peclet number; 0 for passive bodies
     int settling_steps = 1000;
+    bool in_fluid = false;  ///< moved through a fluid: mobility.model = "hydrodynamic"
 };
 
 inline constexpr std::uint64_t settled_count = 2000;  ///< bodies that are brought to rest; larger crowds are copies
@@ -23,7 +24,10 @@ inline constexpr double rms_step = 0.03;              ///< of a diameter
 /// rods/0.05 ... spheres/0.63, rods/nematic, rods/active.
 const std::vector<Crowd>& all_crowds();
 
-/// The crowd of that name; std::out_of_range if there is none.
+/// fluid/rods/0.10 and others, whose steps take a hundred times as long.
+const std::vector<Crowd>& crowds_in_fluid();
+
+/// The crowd of that name, of all these; std::out_of_range if there is none.
 const Crowd& crowd_named(const std::string& name);
 
 /// A simulation of at least `count` bodies in that state: a start of 2000, made once, that has made its settling steps,

@@ -83,9 +83,9 @@ public:
     }
 
     /// Fills in the forces and velocities of the rods that follow from gamma.
-    void complete(ContactSolution& solution) const {
+    void complete(ContactSolution& solution, DelassusOperator::Reach reach = DelassusOperator::Reach::all) const {
         solution.resize(contact_matrix_);
-        matrix_.velocities(solution.gamma, solution.forces, solution.velocities);
+        matrix_.velocities(solution.gamma, solution.forces, solution.velocities, reach);
         if (domain_.is_shared()) fetch_velocities(solution.velocities);  // the forces on ghosts are not all known here
         solution.box_rate = box_rate(solution.gamma);
     }

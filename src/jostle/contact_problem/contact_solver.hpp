@@ -32,7 +32,7 @@ public:
     }
 
     /// Whether this stop is at a solution, which stands unless the problem grows. If not, only the velocities of the
-    /// candidate are up to date.
+    /// candidate are up to date, as far as a search for violated pairs needs them.
     bool at_solution() const { return at_solution_; }
 
     /// Whether this stop is at a solution, or at a candidate whose forces hardly change any more.

@@ -60,10 +60,10 @@ void DelassusOperator::rates(std::span<const ContactVelocity> velocities, double
 }
 
 void DelassusOperator::velocities(std::span<const double> gamma, std::span<ContactForce> forces,
-                                  std::span<ContactVelocity> velocities) const {
+                                  std::span<ContactVelocity> velocities, Reach reach) const {
     contact_matrix_.apply(gamma, forces);
     if (couples_rods()) {
-        apply_coupling_mobility(forces, velocities);
+        apply_coupling_mobility(forces, velocities, reach);
         return;
     }
     parallel_for(rods_.size(), [&](std::size_t local) {
@@ -72,13 +72,16 @@ void DelassusOperator::velocities(std::span<const double> gamma, std::span<Conta
 }
 
 void DelassusOperator::apply_coupling_mobility(std::span<const ContactForce> forces,
-                                               std::span<ContactVelocity> velocities) const {
+                                               std::span<ContactVelocity> velocities, Reach reach) const {
     const auto rows = contact_matrix_.rods();
     Forces all_forces(all_rods_.size());
     Velocities all_velocities(all_rods_.size());
     parallel_for(rows.size(),
                  [&](std::size_t local) { set_force(forces[local], rods_[local].axis, rows[local], all_forces); });
-    mobility_.apply(all_forces, all_velocities);
+    if (reach == Reach::all)
+        mobility_.apply(all_forces, all_velocities);
+    else
+        mobility_.apply_near(all_forces, all_velocities);
     parallel_for(rows.size(), [&](std::size_t local) {
         velocities[local] = contact_velocity(all_velocities, rows[local], rods_[local].axis);
     });

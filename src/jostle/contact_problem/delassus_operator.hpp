@@ -43,13 +43,17 @@ public:
     void rates(std::span<const ContactVelocity> velocities, double box_rate, std::span<const double> gamma,
                std::span<double> rates) const;
 
+    /// What of the mobility is applied: all of it, or only its near part.
+    enum class Reach { all, near };
+
     /// D gamma and M D gamma, one a rod with contacts.
     void velocities(std::span<const double> gamma, std::span<ContactForce> forces,
-                    std::span<ContactVelocity> velocities) const;
+                    std::span<ContactVelocity> velocities, Reach reach = Reach::all) const;
 
 private:
     double relative_mobility_of(std::size_t l) const;
-    void apply_coupling_mobility(std::span<const ContactForce> forces, std::span<ContactVelocity> velocities) const;
+    void apply_coupling_mobility(std::span<const ContactForce> forces, std::span<ContactVelocity> velocities,
+                                 Reach reach) const;
 
     const ContactMatrix& contact_matrix_;
     const Rods& all_rods_;

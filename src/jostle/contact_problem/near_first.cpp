@@ -28,8 +28,11 @@ NearFirst::NearFirst(const ContactProblem& problem, const LcpSettings& settings)
 bool NearFirst::run_to_next_stop() {
     const bool begins = std::exchange(begins_, false), grown = problem_has_grown();
     if (at_solution_ && !grown) return false;
-    if (begins || grown) take_in_contacts();
     if (!among_ || grown) among_.emplace(problem_.matrix());
+    if (begins || at_solution_)
+        velocity_ = rates_of_velocities();
+    else if (grown)
+        velocity_ = rates_of_forces();
     if (at_solution_ || begins) ++outcome_.solves;
     at_solution_ = false;
     for (;;) {
@@ -52,10 +55,20 @@ void NearFirst::begin_again() {
     searched_early_ = false;
 }
 
-/// A gamma + b of all contacts, from the velocities of all rods, which are up to date.
-void NearFirst::take_in_contacts() {
-    velocity_.resize(problem_.size());
-    problem_.gap_velocities(solution_, velocity_);
+/// A gamma + b of all contacts, from the velocities of all rods, if these are those of the whole mobility.
+std::vector<double> NearFirst::rates_of_velocities() const {
+    std::vector<double> rates(problem_.size());
+    problem_.gap_velocities(solution_, rates);
+    return rates;
+}
+
+/// The same, from gamma.
+std::vector<double> NearFirst::rates_of_forces() {
+    std::vector<double> rates(problem_.size());
+    among_->whole().apply(solution_.gamma, rates);
+    ++outcome_.iterations;
+    parallel_for(rates.size(), [&](std::size_t l) { rates[l] += problem_.constant()[l]; });
+    return rates;
 }
 
 double NearFirst::residual() const {
@@ -66,13 +79,15 @@ double NearFirst::residual() const {
 double NearFirst::verified() {
     problem_.complete(solution_);
     ++outcome_.iterations;
-    problem_.gap_velocities(solution_, velocity_);
+    velocity_ = rates_of_velocities();
     return residual();
 }
 
+/// Pairs that come together are looked for with the velocities of the near field, which are cheap. What these do not
+/// show, the search at the solution finds.
 bool NearFirst::stop_at_candidate() {
     searched_early_ = true;
-    verified();
+    problem_.complete(solution_, DelassusOperator::Reach::near);
     return true;
 }
 

@@ -18,8 +18,8 @@ namespace jostle {
 /// gamma* - gamma descends, as it lowers the same energy with B in the place of A, so that this converges as any
 /// exact line search along such directions does. What B leaves out is smooth, and two rods that push each other are
 /// hardly moved by it: few applications of M are needed (decision 0059). M is applied among the rods with contacts
-/// alone, and to all of them once before each stop. It stops at a candidate once, to have violated pairs found early,
-/// and at every solution. The outcome's iterations are applications of M.
+/// alone, and to all of them once at every solution. It stops at a candidate once, to have violated pairs found early
+/// by its near part, and at every solution. The outcome's iterations are applications of M.
 class NearFirst final : public ContactSolver {
 public:
     NearFirst(const ContactProblem& problem, const LcpSettings& settings);
@@ -27,7 +27,8 @@ public:
     void begin_again() override;
 
 private:
-    void take_in_contacts();
+    std::vector<double> rates_of_velocities() const;
+    std::vector<double> rates_of_forces();
     double verified();
     bool stop_at_candidate();
     bool end(double residual);

@@ -61,18 +61,22 @@ public:
     /// flow(r^2) for r < range; beyond it `at` must not be asked.
     template <class Flow>
     FlowTable(double range, std::size_t intervals, Flow&& flow)
-        : range_(range), per_square_(static_cast<double>(intervals) / (range * range)), pieces_(intervals) {
+        : per_square_(static_cast<double>(intervals) / (range * range)), pieces_(intervals) {
         for (std::size_t k = 0; k < intervals; ++k) pieces_[k] = piece(k, flow);
     }
 
-    double range() const { return range_; }
+    double per_square() const { return per_square_; }  ///< intervals per length^2
+
+    using Both [[gnu::vector_size(16)]] = double;  ///< of isotropic and of radial, in one register
+    using Piece = std::array<Both, 4>;             ///< coefficients of t^0 ... t^3, t from 0 to 1 in an interval of r^2
+    const std::vector<Piece>& pieces() const { return pieces_; }
 
     BlobFlow at(double squared_distance) const {
         const double place = squared_distance * per_square_;
         const auto k = static_cast<std::size_t>(place);
         const double t = place - static_cast<double>(k);
         const Piece& p = pieces_[k];
-        return {((p[3] * t + p[2]) * t + p[1]) * t + p[0], ((p[7] * t + p[6]) * t + p[5]) * t + p[4]};
+        return flow_of(((p[3] * t + p[2]) * t + p[1]) * t + p[0]);
     }
 
     BlobFlowSlope with_slope(double squared_distance) const {
@@ -80,36 +84,26 @@ public:
         const auto k = static_cast<std::size_t>(place);
         const double t = place - static_cast<double>(k);
         const Piece& p = pieces_[k];
-        return {{((p[3] * t + p[2]) * t + p[1]) * t + p[0], ((p[7] * t + p[6]) * t + p[5]) * t + p[4]},
-                {((3.0 * p[3] * t + 2.0 * p[2]) * t + p[1]) * per_square_,
-                 ((3.0 * p[7] * t + 2.0 * p[6]) * t + p[5]) * per_square_}};
+        return {flow_of(((p[3] * t + p[2]) * t + p[1]) * t + p[0]),
+                flow_of(((3.0 * p[3] * t + 2.0 * p[2]) * t + p[1]) * per_square_)};
     }
 
 private:
-    using Piece = std::array<double, 8>;  ///< coefficients of isotropic, then of radial
+    static BlobFlow flow_of(const Both& values) { return {values[0], values[1]}; }
 
     /// Through the values at t = 0, 1/3, 2/3, 1.
-    static void interpolate(const std::array<double, 4>& v, double* c) {
-        c[0] = v[0];
-        c[1] = 0.5 * (-11.0 * v[0] + 18.0 * v[1] - 9.0 * v[2] + 2.0 * v[3]);
-        c[2] = 4.5 * (2.0 * v[0] - 5.0 * v[1] + 4.0 * v[2] - v[3]);
-        c[3] = 4.5 * (-v[0] + 3.0 * v[1] - 3.0 * v[2] + v[3]);
-    }
     template <class Flow>
     Piece piece(std::size_t k, Flow&& flow) const {
-        std::array<double, 4> isotropic, radial;
+        std::array<Both, 4> v;
         for (std::size_t n = 0; n < 4; ++n) {
             const BlobFlow value = flow((static_cast<double>(k) + static_cast<double>(n) / 3.0) / per_square_);
-            isotropic[n] = value.isotropic;
-            radial[n] = value.radial;
+            v[n] = Both{value.isotropic, value.radial};
         }
-        Piece coefficients;
-        interpolate(isotropic, coefficients.data());
-        interpolate(radial, coefficients.data() + 4);
-        return coefficients;
+        return {v[0], 0.5 * (-11.0 * v[0] + 18.0 * v[1] - 9.0 * v[2] + 2.0 * v[3]),
+                4.5 * (2.0 * v[0] - 5.0 * v[1] + 4.0 * v[2] - v[3]), 4.5 * (-v[0] + 3.0 * v[1] - 3.0 * v[2] + v[3])};
     }
 
-    double range_, per_square_;  ///< intervals per length^2
+    double per_square_;
     std::vector<Piece> pieces_;
 };
 

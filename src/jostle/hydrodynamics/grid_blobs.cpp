@@ -23,7 +23,7 @@ GridBlobs::GridBlobs(const Rods& rods, const Box& box, const RodBlobs& blobs, co
     for (std::size_t k = 0; k < rows_.size(); ++k)
         first_blob_[k + 1] = first_blob_[k] + blobs_.of(rows_[k]).place.size();
     sort(blobs_by_ids(box));
-    weights_ = weights_of_blobs([this](double x) { return kernel_.value(x); });
+    weights_ = weights_of_blobs([this](double x, std::size_t) { return kernel_.value(x); });
 }
 
 std::vector<GridBlobs::Blob> GridBlobs::blobs_by_ids(const Box& box) {
@@ -66,22 +66,25 @@ void GridBlobs::sort(const std::vector<Blob>& by_ids) {
     }
 }
 
+/// value(x, place) at x spacings from each blob.
 template <class Value>
 GridBlobs::Weights GridBlobs::weights_of_blobs(Value&& value) const {
     Weights weights(3 * points_ * placed_.size());
     parallel_for(placed_.size(), [&](std::size_t k) {
         for (std::size_t direction = 0; direction < 3; ++direction)
-            for (std::size_t p = 0; p < points_; ++p)
-                weights[(3 * k + direction) * points_ + p] =
-                    static_cast<float>(value(static_cast<double>(p) - placed_[k].offset[direction]));
+            for (std::size_t p = 0; p < points_; ++p) {
+                const std::size_t place = (3 * k + direction) * points_ + p;
+                const double x = static_cast<double>(p) - placed_[k].offset[direction];
+                weights[place] = static_cast<float>(value(x, place));
+            }
     });
     return weights;
 }
 
-/// Calls add_row(blob, y, z, row of the grid, places along x) for the rows of points that each blob is spread over; y
-/// and z count its own points.
-template <class AddRow>
-void GridBlobs::spread_blobs(std::vector<GridVector>& field, AddRow&& add_row) const {
+/// Calls add_row(blob, y, z, row of the grid, places along x) for the rows of points that each blob that acts(blob) is
+/// spread over; y and z count its own points.
+template <class Acts, class AddRow>
+void GridBlobs::spread_blobs(std::vector<GridVector>& field, Acts&& acts, AddRow&& add_row) const {
     const std::size_t in_plane = grid_[0] * grid_[1];
     parallel_for_parts(grid_[2], [&](std::size_t plane) {
         GridVector* const corner = field.data() + plane * in_plane;
@@ -90,6 +93,7 @@ void GridBlobs::spread_blobs(std::vector<GridVector>& field, AddRow&& add_row) c
         for (std::size_t z = 0; z < points_; ++z) {
             const std::size_t began = wrapped(plane + grid_[2] - z, 2);
             for (std::size_t blob = begin_[began]; blob < begin_[began + 1]; ++blob) {
+                if (!acts(blob)) continue;
                 const std::array<std::uint32_t, 3>& first = placed_[blob].first;
                 for (std::size_t p = 0; p < points_; ++p) along_x[p] = wrapped(first[0] + p, 0);
                 for (std::size_t y = 0; y < points_; ++y)
@@ -107,11 +111,13 @@ void GridBlobs::spread_vectors(std::vector<GridVector>& field, VectorOf&& vector
         const Blob& blob = placed_[k];
         vector[k] = GridVector(vector_of(blob, blobs_.of(blob.row)));
     });
-    spread_blobs(field, [&](std::size_t k, std::size_t y, std::size_t z, GridVector* row, const std::size_t* along_x) {
-        const float* const weight = of_blob(weights_, k, 0);
-        const GridVector::Lanes share = vector[k].lanes * (of_blob(weights_, k, 1)[y] * of_blob(weights_, k, 2)[z]);
-        for (std::size_t p = 0; p < points_; ++p) row[along_x[p]].lanes += weight[p] * share;
-    });
+    const auto acts = [&](std::size_t k) { return any(vector[k].lanes != Four{}); };
+    spread_blobs(
+        field, acts, [&](std::size_t k, std::size_t y, std::size_t z, GridVector* row, const std::size_t* along_x) {
+            const float* const weight = of_blob(weights_, k, 0);
+            const GridVector::Lanes share = vector[k].lanes * (of_blob(weights_, k, 1)[y] * of_blob(weights_, k, 2)[z]);
+            for (std::size_t p = 0; p < points_; ++p) row[along_x[p]].lanes += weight[p] * share;
+        });
 }
 
 void GridBlobs::spread(std::span<const LineVector> forces, std::vector<GridVector>& field) const {
@@ -129,23 +135,26 @@ void GridBlobs::spread_couples(std::span<const LineVector> forces, std::vector<G
 
 void GridBlobs::spread(const AxialStresslets& stresslets, std::vector<GridVector>& field) const {
     // By how much the weight of a point grows as the blob goes on: the other way round than as the point does.
-    const Weights slopes = weights_of_blobs([this](double x) { return -kernel_.slope(x); });
-    spread_blobs(field, [&](std::size_t k, std::size_t y, std::size_t z, GridVector* row, const std::size_t* along_x) {
-        const Blob& blob = placed_[k];
-        const BlobLine& line = blobs_.of(blob.row);
-        const Vec3& axis = rods_.axis[blob.row];
-        const auto [force, dipole] = axial_blob(stresslets, blob.row, line, blob.number);
-        const double weight_y = of_blob(weights_, k, 1)[y], weight_z = of_blob(weights_, k, 2)[z];
-        const double across_x =
-            force * weight_y * weight_z + dipole * (axis.y * per_length_.y * of_blob(slopes, k, 1)[y] * weight_z +
-                                                    axis.z * per_length_.z * of_blob(slopes, k, 2)[z] * weight_y);
-        const double on_slope = dipole * axis.x * per_length_.x * weight_y * weight_z;
-        const GridVector::Lanes direction = GridVector(axis).lanes;
-        for (std::size_t p = 0; p < points_; ++p) {
-            const double weight = across_x * of_blob(weights_, k, 0)[p] + on_slope * of_blob(slopes, k, 0)[p];
-            row[along_x[p]].lanes += static_cast<float>(weight) * direction;
-        }
-    });
+    const Weights slopes =
+        weights_of_blobs([this](double x, std::size_t place) { return -weights_[place] * kernel_.relative_slope(x); });
+    const auto acts = [](std::size_t) { return true; };
+    spread_blobs(
+        field, acts, [&](std::size_t k, std::size_t y, std::size_t z, GridVector* row, const std::size_t* along_x) {
+            const Blob& blob = placed_[k];
+            const BlobLine& line = blobs_.of(blob.row);
+            const Vec3& axis = rods_.axis[blob.row];
+            const auto [force, dipole] = axial_blob(stresslets, blob.row, line, blob.number);
+            const double weight_y = of_blob(weights_, k, 1)[y], weight_z = of_blob(weights_, k, 2)[z];
+            const double across_x =
+                force * weight_y * weight_z + dipole * (axis.y * per_length_.y * of_blob(slopes, k, 1)[y] * weight_z +
+                                                        axis.z * per_length_.z * of_blob(slopes, k, 2)[z] * weight_y);
+            const double on_slope = dipole * axis.x * per_length_.x * weight_y * weight_z;
+            const GridVector::Lanes direction = GridVector(axis).lanes;
+            for (std::size_t p = 0; p < points_; ++p) {
+                const double weight = across_x * of_blob(weights_, k, 0)[p] + on_slope * of_blob(slopes, k, 0)[p];
+                row[along_x[p]].lanes += static_cast<float>(weight) * direction;
+            }
+        });
 }
 
 void GridBlobs::gather(const std::vector<GridVector>& field, std::span<LineVector> velocities) const {

@@ -53,8 +53,8 @@ private:
     Weights weights_of_blobs(Value&& value) const;
     template <class VectorOf>
     void spread_vectors(std::vector<GridVector>& field, VectorOf&& vector_of) const;
-    template <class AddRow>
-    void spread_blobs(std::vector<GridVector>& field, AddRow&& add_row) const;
+    template <class Acts, class AddRow>
+    void spread_blobs(std::vector<GridVector>& field, Acts&& acts, AddRow&& add_row) const;
     /// A blob is spread over no more points than the grid has.
     std::size_t wrapped(std::size_t point, std::size_t direction) const {
         return point < grid_[direction] ? point : point - grid_[direction];

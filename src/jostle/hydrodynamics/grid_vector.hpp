@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <type_traits>
 
+#include "jostle/math/four.hpp"
 #include "jostle/math/vec3.hpp"
 
 namespace jostle {
@@ -13,14 +14,14 @@ namespace jostle {
 /// It has the arithmetic of a number, lane by lane, so that KissFFT transforms all three at once. Floats: a register of
 /// every processor holds them, and their rounding, 1e-7 of a flow, is below every tolerance (decision 0074).
 struct alignas(16) GridVector {
-    using Lanes [[gnu::vector_size(16)]] = float;
+    using Lanes = Four;
     Lanes lanes{};
 
     GridVector() = default;
     GridVector(const Lanes& values) : lanes(values) {}  // NOLINT: as a vector register
     /// The same in all lanes.
     template <class Number, class = std::enable_if_t<std::is_arithmetic_v<Number>>>
-    GridVector(Number value) : lanes(static_cast<float>(value) - Lanes{}) {}  // NOLINT: KissFFT writes numbers
+    GridVector(Number value) : lanes(four(static_cast<double>(value))) {}  // NOLINT: KissFFT writes numbers
     explicit GridVector(const Vec3& v)
         : lanes{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0.0F} {}
     /// Of one that is the same in all lanes.

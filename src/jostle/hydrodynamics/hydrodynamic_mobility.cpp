@@ -64,12 +64,14 @@ enum class Couples { none, of_spheres };
 class HydrodynamicOperator final : public MobilityOperator {
 public:
     HydrodynamicOperator(const Rods& rods, const Box& box, RodBlobs blobs, std::shared_ptr<const FluidFlows> flows,
-                         std::shared_ptr<FluidGrids> grids, Couples couples, double noise_change)
+                         std::shared_ptr<FluidGrids> grids, std::shared_ptr<NearMemory> near, Couples couples,
+                         double noise_change)
         : MobilityOperator(rods),
           box_(box),
           blobs_(std::move(blobs)),
           flows_(std::move(flows)),
           grids_(std::move(grids)),
+          near_(std::move(near)),
           couples_(couples),
           noise_change_(noise_change) {}
 
@@ -77,7 +79,7 @@ public:
         apply(forces, velocities, sums().far ? &*sums().far : nullptr);
     }
     /// Without the far field.
-    void apply_near(const Forces& forces, Velocities& velocities) const { apply(forces, velocities, nullptr); }
+    void apply_near(const Forces& forces, Velocities& velocities) const override { apply(forces, velocities, nullptr); }
 
     std::unique_ptr<const MobilityAmong> among(std::span<const std::uint32_t> rows) const override;
 
@@ -93,7 +95,15 @@ public:
     void add_axial_flow(const AxialStresslets& stresslets, Velocities& velocities) const override {
         if (blobs_.max_blobs() < 2 && stresslets.dipole.empty()) return;  // M does not depend on the axes of spheres
         std::vector<LineVector> moved(rods().size());
-        sums().near.add_axial_flow(stresslets, moved);
+        bool is_first = false;
+        std::call_once(summed_, [&] {
+            find_sums(&stresslets);
+            is_first = true;
+        });
+        if (is_first)
+            sums_->near.add_axial_flow(moved);
+        else
+            sums_->near.add_axial_flow(stresslets, moved);
         if (sums().couples) sums().couples->add_axial_flow(stresslets, moved);
         if (sums().far) sums().far->add_axial_flow(stresslets, moved);
         add(moved, velocities);
@@ -126,17 +136,20 @@ private:
     }
 
     const Sums& sums() const {
-        std::call_once(summed_, [this] {
-            std::vector<RodMobility> own;
-            for (const BlobLine& line : blobs_.lines()) own.push_back(own_near(line));
-            sums_.reset(new Sums{NearField(rods(), box_, blobs_, flows_->in_real_space(), std::move(own)), {}, {}});
-            const bool with_couples = couples_ == Couples::of_spheres;
-            if (with_couples) sums_->couples.emplace(rods(), box_, blobs_, *flows_->couples, sums_->near.pairs());
-            if (flows_->near)
-                sums_->far.emplace(rods(), box_, blobs_, flows_->split, *flows_->factors,
-                                   with_couples ? &*flows_->couple_factors : nullptr, grids_);
-        });
+        std::call_once(summed_, [this] { find_sums(nullptr); });
         return *sums_;
+    }
+
+    void find_sums(const AxialStresslets* stresslets) const {
+        std::vector<RodMobility> own;
+        for (const BlobLine& line : blobs_.lines()) own.push_back(own_near(line));
+        sums_.reset(new Sums{
+            NearField(rods(), box_, blobs_, flows_->in_real_space(), std::move(own), *near_, stresslets), {}, {}});
+        const bool with_couples = couples_ == Couples::of_spheres;
+        if (with_couples) sums_->couples.emplace(rods(), box_, blobs_, *flows_->couples, sums_->near.pairs());
+        if (flows_->near)
+            sums_->far.emplace(rods(), box_, blobs_, flows_->split, *flows_->factors,
+                               with_couples ? &*flows_->couple_factors : nullptr, grids_);
     }
 
     RodMobility own_near(const BlobLine& line) const {
@@ -218,6 +231,7 @@ private:
     RodBlobs blobs_;
     std::shared_ptr<const FluidFlows> flows_;
     std::shared_ptr<FluidGrids> grids_;  ///< none in an unbounded fluid
+    std::shared_ptr<NearMemory> near_;
     Couples couples_;
     double noise_change_;
     mutable std::once_flag summed_;
@@ -231,7 +245,8 @@ public:
     FluidAmong(Rods rods, const Box& box, RodBlobs blobs, std::shared_ptr<const FluidFlows> flows,
                std::shared_ptr<FluidGrids> grids)
         : rods_(std::move(rods)),
-          fluid_(rods_, box, std::move(blobs), std::move(flows), std::move(grids), Couples::none, 0.0) {}
+          fluid_(rods_, box, std::move(blobs), std::move(flows), std::move(grids), std::make_shared<NearMemory>(),
+                 Couples::none, 0.0) {}
 
     void apply(const Forces& forces, Velocities& velocities) const override { fluid_.apply(forces, velocities); }
     void apply_near(const Forces& forces, Velocities& velocities) const override {
@@ -273,10 +288,12 @@ std::unique_ptr<const MobilityOperator> HydrodynamicMobility::at(const Rods& rod
     require_known_box(rods, box);
     std::shared_ptr<const FluidFlows> flows;
     std::shared_ptr<FluidGrids> grids;
+    std::shared_ptr<NearMemory> near;
     {
         const std::lock_guard guard(lock_);
         flows = last_;
         grids = std::move(spare_grids_);
+        near = std::move(spare_near_);
     }
     RodBlobs blobs = blobs_of(rods, viscosity_, flows ? flows->lines : nullptr);
     const bool with_couples = spheres_ == SpheresTurn::with_fluid && blobs.any_sphere();
@@ -298,12 +315,14 @@ std::unique_ptr<const MobilityOperator> HydrodynamicMobility::at(const Rods& rod
         grids.reset();
     else if (!grids || grids.use_count() > 1 || !grids->fit(split.grid, with_couples))  // another is at work on them
         grids = std::make_shared<FluidGrids>(split.grid, with_couples);
+    if (!near || near.use_count() > 1) near = std::make_shared<NearMemory>();
     {
         const std::lock_guard guard(lock_);
         spare_grids_ = grids;
+        spare_near_ = near;
     }
     return std::make_unique<HydrodynamicOperator>(rods, box, std::move(blobs), std::move(flows), std::move(grids),
-                                                  with_couples ? Couples::of_spheres : Couples::none,
+                                                  std::move(near), with_couples ? Couples::of_spheres : Couples::none,
                                                   std::min(tolerance_, 1e-3));
 }
 

@@ -14,6 +14,7 @@ inline constexpr std::size_t max_rods_in_open_box = 2000;
 
 struct FluidFlows;
 struct FluidGrids;
+struct NearMemory;
 
 /// Whether spheres turn with the fluid around them, and stir it by turning. Nothing else depends on the direction of a
 /// sphere, so that those that neither swim nor are aligned need not.
@@ -45,6 +46,7 @@ private:
     mutable std::mutex lock_;  ///< of what was last made
     mutable std::shared_ptr<const FluidFlows> last_;
     mutable std::shared_ptr<FluidGrids> spare_grids_;  ///< those of the last operator, which the next may take over
+    mutable std::shared_ptr<NearMemory> spare_near_;   ///< and its other memory
 };
 
 }  // namespace jostle

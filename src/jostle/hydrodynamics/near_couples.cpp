@@ -6,11 +6,11 @@ namespace jostle {
 
 NearCouples::NearCouples(const Rods& rods, const Box& box, const RodBlobs& blobs, const CoupleFlow& flow,
                          const NearPairs& pairs)
-    : rods_(rods), box_(box), blobs_(blobs), flow_(flow), pairs_(pairs), blocks_(pairs.sides.size()) {
-    std::vector<SideBlocks> of_pairs(pairs_.pairs.size());
-    parallel_for(of_pairs.size(), [&](std::size_t p) { of_pairs[p] = blocks_of(pairs_.pairs[p]); });
+    : rods_(rods), box_(box), blobs_(blobs), flow_(flow), pairs_(pairs), blocks_(pairs.sides().size()) {
+    std::vector<SideBlocks> of_pairs(pairs_.pairs().size());
+    parallel_for(of_pairs.size(), [&](std::size_t p) { of_pairs[p] = blocks_of(pairs_.pairs()[p]); });
     parallel_for(blocks_.size(), [&](std::size_t entry) {
-        const std::uint32_t side = pairs_.sides[entry];
+        const std::uint32_t side = pairs_.sides()[entry];
         blocks_[entry] = side % 2 == 0 ? of_pairs[side / 2] : turned(of_pairs[side / 2]);
     });
 }
@@ -61,9 +61,9 @@ void NearCouples::add_flow(std::span<const LineVector> forces, std::span<LineVec
     parallel_for(rods_.size(), [&](std::size_t i) {
         LineVector sum;
         Vec3 turning;
-        for (std::size_t entry = pairs_.begin[i]; entry < pairs_.begin[i + 1]; ++entry) {
+        for (std::size_t entry = pairs_.begin()[i]; entry < pairs_.begin()[i + 1]; ++entry) {
             const SideBlocks& blocks = blocks_[entry];
-            const std::uint32_t j = pairs_.others[entry];
+            const std::uint32_t j = pairs_.others()[entry];
             const Vec3 couple = cross(rods_.axis[j], forces[j].moment), between = blocks.between.value();
             sum.centre += cross(couple, blocks.centre_couple.value());
             sum.moment += cross(couple, blocks.moment_couple.value());
@@ -95,9 +95,9 @@ void NearCouples::add_axial_flow(const AxialStresslets& stresslets, std::span<Li
     parallel_for(rods_.size(), [&](std::size_t i) {
         if (!blobs_.of(i).is_sphere()) return;
         Vec3 turning;
-        for (std::size_t entry = pairs_.begin[i]; entry < pairs_.begin[i + 1]; ++entry) {
-            const std::uint32_t side = pairs_.sides[entry];
-            const PairKey& key = pairs_.pairs[side / 2];
+        for (std::size_t entry = pairs_.begin()[i]; entry < pairs_.begin()[i + 1]; ++entry) {
+            const std::uint32_t side = pairs_.sides()[entry];
+            const PairKey& key = pairs_.pairs()[side / 2];
             turning += turning_of(side % 2 == 0 ? key : key.turned(), stresslets);
         }
         velocities[i].moment += cross(turning, rods_.axis[i]);

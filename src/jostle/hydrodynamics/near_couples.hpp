@@ -57,7 +57,7 @@ private:
     const Box& box_;
     const RodBlobs& blobs_;
     const CoupleFlow& flow_;
-    NearPairs pairs_;
+    const NearPairs& pairs_;
     std::vector<SideBlocks> blocks_;  ///< (2 pairs) in the order of sides
 };
 

@@ -1,9 +1,8 @@
 #pragma once
 
 #include <limits>
-#include <numbers>
 
-#include "jostle/hydrodynamics/blob_kernel.hpp"
+#include "jostle/hydrodynamics/four_flow_table.hpp"
 
 namespace jostle {
 
@@ -13,15 +12,8 @@ namespace jostle {
 /// it is the near part, and nothing beyond the cutoff.
 class PairFlow {
 public:
-    static PairFlow unbounded(double spread, double viscosity) {
-        const double range = 12.0 * std::sqrt(spread);  // where erfc(r/(2 sqrt(spread))) is below 1e-16
-        return {range, spread, viscosity, std::numeric_limits<double>::infinity(),
-                [=](double squared) { return stokes_flow(spread, viscosity, squared); }};
-    }
-    static PairFlow near(double spread, double splitting, double viscosity, double cutoff) {
-        return {cutoff, spread, viscosity, cutoff,
-                [=](double squared) { return near_flow(spread, splitting, viscosity, squared); }};
-    }
+    static PairFlow unbounded(double spread, double viscosity);
+    static PairFlow near(double spread, double splitting, double viscosity, double cutoff);
 
     /// Blobs farther apart do not feel each other; infinite in an unbounded fluid.
     double cutoff() const { return cutoff_; }
@@ -33,27 +25,40 @@ public:
         return squared_distance < squared_range_ ? table_.with_slope(squared_distance) : of_points(squared_distance);
     }
 
-private:
-    static constexpr std::size_t intervals = 4096;
-
-    template <class Flow>
-    PairFlow(double range, double spread, double viscosity, double cutoff, Flow&& flow)
-        : table_(range, intervals, flow),
-          squared_range_(range * range),
-          spread_(spread),
-          viscosity_(viscosity),
-          cutoff_(cutoff) {}
-
-    BlobFlowSlope of_points(double squared_distance) const {
-        if (squared_distance > cutoff_ * cutoff_) return {};
-        const double inverse = 1.0 / squared_distance;
-        const double unit = 0.25 / (std::numbers::pi * viscosity_) * std::sqrt(inverse), faxen = spread_ * inverse;
-        return {{unit * (0.5 + faxen), unit * inverse * (0.5 - 3.0 * faxen)},
-                {-unit * inverse * (0.25 + 1.5 * faxen), -unit * inverse * inverse * (0.75 - 7.5 * faxen)}};
+    /// Of four pairs, rounded to floats.
+    FourFlows at(const Four& squared_distance) const {
+        const FourIntegers known = squared_distance < in_table_;
+        const FourFlows near = fours_.at(where(known, squared_distance));
+        FourFlows flow{where(known, near.isotropic), where(known, near.radial)};
+        if (is_unbounded() && any(~known)) add_of_points(squared_distance, known, flow);
+        return flow;
     }
+    FourFlowSlopes with_slope(const Four& squared_distance) const {
+        const FourIntegers known = squared_distance < in_table_;
+        const auto [near, near_slope] = fours_.with_slope(where(known, squared_distance));
+        FourFlowSlopes flow{{where(known, near.isotropic), where(known, near.radial)},
+                            {where(known, near_slope.isotropic), where(known, near_slope.radial)}};
+        if (is_unbounded() && any(~known)) add_of_points(squared_distance, known, flow.flow, &flow.slope);
+        return flow;
+    }
+
+    /// Whether any of four pairs is near enough to have a flow.
+    bool any_flow(const Four& squared_distance) const { return is_unbounded() || any(squared_distance < in_table_); }
+
+private:
+    template <class Flow>
+    PairFlow(double range, double spread, double viscosity, double cutoff, Flow&& flow);
+
+    bool is_unbounded() const { return cutoff_ == std::numeric_limits<double>::infinity(); }
+    BlobFlowSlope of_points(double squared_distance) const;
+    /// Where they are not known from the table.
+    void add_of_points(const Four& squared_distance, const FourIntegers& known, FourFlows& flow,
+                       FourFlows* slope = nullptr) const;
 
     FlowTable table_;
     double squared_range_, spread_, viscosity_, cutoff_;
+    Four in_table_;  ///< squared distances below it are
+    FourFlowTable fours_;
 };
 
 }  // namespace jostle

@@ -16,9 +16,10 @@ public:
         const double z = x / half_, rest = 1.0 - z * z;
         return rest > 0.0 ? std::exp(beta_ * (std::sqrt(rest) - 1.0)) : 0.0;
     }
-    double slope(double x) const {
+    /// Its derivative over its value.
+    double relative_slope(double x) const {
         const double z = x / half_, rest = 1.0 - z * z;
-        return rest > 0.0 ? -beta_ * z / (half_ * std::sqrt(rest)) * std::exp(beta_ * (std::sqrt(rest) - 1.0)) : 0.0;
+        return rest > 0.0 ? -beta_ * z / (half_ * std::sqrt(rest)) : 0.0;
     }
 
     /// The integral of value(x) cos(k x), k in radians a spacing: by the midpoint rule in the angle asin(z).

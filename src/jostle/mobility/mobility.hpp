@@ -40,6 +40,9 @@ public:
     /// velocities = M forces, (N) each; `velocities` is given that size.
     virtual void apply(const Forces& forces, Velocities& velocities) const = 0;
 
+    /// The same without the part that acts from afar, which is dear; the whole where there is no such part.
+    virtual void apply_near(const Forces& forces, Velocities& velocities) const { apply(forces, velocities); }
+
     /// velocities += scale B xi with B B^T = M and standard normal numbers xi, which are a function of seed, step and
     /// stream of the key and of the rods' ids: Brownian velocities for scale = sqrt(2 kT/dt).
     virtual void add_square_root(const RandomKey& key, double scale, Velocities& velocities) const = 0;

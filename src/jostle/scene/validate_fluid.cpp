@@ -20,7 +20,7 @@ constexpr const char* with_fluid = "with mobility.model = \"hydrodynamic\"";
 constexpr const char* without_fluid = "Use mobility.model = \"capsule\"";
 /// In diameters: what pairs of rods within a larger cutoff cost is never worth it.
 constexpr double least_cutoff = 1.0, largest_cutoff = 20.0;
-/// In diameters: rounding of flows on the grid, 1e-7 of what rods move in a step, leaves nothing finer.
+/// In diameters: rounding of flows to floats, 1e-7 of what rods move in a step, leaves nothing finer.
 constexpr double finest_overlap = 1e-8;
 
 void check_sizes(const Scene& scene) {
@@ -57,9 +57,9 @@ void check_box_of_fluid(const Scene& scene) {
 
 void check_overlap_left(const Scene& scene) {
     const Scene::Solver& solver = scene.solver;
-    if (scene.box.periodic[0] && solver.residual == ResidualKind::length && solver.tolerance < finest_overlap)
+    if (solver.residual == ResidualKind::length && solver.tolerance < finest_overlap)
         refuse("solver.tolerance", text(solver.tolerance),
-               fmt::format("{} flows in a periodic box are rounded more coarsely", with_fluid),
+               fmt::format("{} flows are rounded more coarsely", with_fluid),
                fmt::format("at least {}", finest_overlap), "1e-4 is enough");
 }
 

@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "jostle/hydrodynamics/blob_kernel.hpp"
@@ -134,4 +136,32 @@ TEST_CASE("tables of flows: values, and what they change by along a direction") 
         }
     }
     CHECK(near.at(16.01).isotropic == 0.0);
+}
+
+// Floats: of functions that are tabulated to less than their rounding, at distances that round by as much.
+TEST_CASE("flows of four pairs at once are those of each, in floats") {
+    constexpr double rounding = 8.0 * std::numeric_limits<float>::epsilon();
+    const PairFlow open = PairFlow::unbounded(spread, viscosity), near = PairFlow::near(spread, 0.8, viscosity, 4.0);
+    for (const PairFlow* flow : {&open, &near})
+        for (const std::array<double, 4>& distances :
+             {std::array{0.0, 0.3, 0.9, 1.0}, std::array{1.7, 2.9, 3.3, 3.99}, std::array{3.46, 3.47, 4.01, 9.0}}) {
+            Four squared{};
+            for (std::size_t k = 0; k < 4; ++k) squared[k] = static_cast<float>(distances[k] * distances[k]);
+            const FourFlows values = flow->at(squared);
+            const FourFlowSlopes with_slope = flow->with_slope(squared);
+            for (std::size_t k = 0; k < 4; ++k) {
+                CAPTURE(distances[k]);
+                const BlobFlowSlope exact = flow->with_slope(static_cast<double>(squared[k]));
+                const BlobFlow largest = flow->at(0.0);
+                CHECK(std::fabs(values.isotropic[k] - exact.flow.isotropic) < rounding * largest.isotropic);
+                CHECK(std::fabs(values.radial[k] - exact.flow.radial) < rounding * largest.radial);
+                CHECK(with_slope.flow.isotropic[k] == values.isotropic[k]);
+                CHECK(with_slope.flow.radial[k] == values.radial[k]);
+                CHECK(std::fabs(with_slope.slope.isotropic[k] - exact.slope.isotropic) < 1e-5 * largest.radial);
+                CHECK(std::fabs(with_slope.slope.radial[k] - exact.slope.radial) < 1e-5 * largest.radial / spread);
+            }
+        }
+    CHECK(near.any_flow(Four{20.0F, 15.9F, 20.0F, 20.0F}));
+    CHECK(!near.any_flow(Four{20.0F, 16.1F, 20.0F, 20.0F}));
+    CHECK(open.any_flow(Four{1e6F, 1e6F, 1e6F, 1e6F}));
 }
