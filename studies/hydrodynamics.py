@@ -17,7 +17,8 @@ from runs import Run, error_of_blocks
 MODELS = ("hydrodynamic", "capsule")
 # (name, L/D, phi, rods, steps of production): full, and those of the quick study
 STATES = (("spheres", 0, 0.1, 200, 40000), ("spheres", 0, 0.2, 200, 30000), ("spheres", 0, 0.4, 200, 20000),
-          ("rods", 5, 0.1, 200, 20000), ("rods", 5, 0.2, 200, 15000), ("rods", 5, 0.3, 200, 12000), ("nematic", 5, 0.45, 200, 12000))
+          ("rods", 5, 0.1, 200, 20000), ("rods", 5, 0.2, 200, 15000), ("rods", 5, 0.3, 200, 12000),
+          ("nematic", 5, 0.5, 200, 30000))  # nearer to the transition, at 0.45, S varies three times as much, for twice as long
 QUICK_STATES = (("spheres", 0, 0.2, 60, 5000), ("rods", 5, 0.1, 40, 2500))
 RMS_STEP = 0.05
 # Of swimmers L/D = 5: U_0 = 5 kT/(mu D2), so that U_0/(L D_R) is 154; p = +-2 mu U_0 (L + D)^2.

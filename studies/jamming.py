@@ -16,7 +16,8 @@ LENGTHS, QUICK_LENGTHS = (0.0, 0.2, 0.45, 0.7, 1.0, 2.0, 3.0), (0.0, 0.45)
 SEEDS, QUICK_SEEDS = (1, 2, 3, 4), (1, 2)
 COUNT, QUICK_COUNT = 400, 100
 STEPS, QUICK_STEPS = 4000, 1500
-TOLERANCE = 1e-9      # of a diameter; at 1e-7 one contact of a thousand is none, but a pair that nearly touches
+TOLERANCE = 1e-7      # of a diameter
+FINE_TOLERANCE = 1e-9  # of spheres, whose contacts are counted: at 1e-7 one of a thousand is none, but a pair that nearly touches
 STEP = 1.0            # a hundredth of the time in which nothing would resist: 100 viscosities over the pressure
 # Spheres and the maximum of the curve: Imaz Gonzalez et al., J. Phys. Chem. B 127, 6814 (2023), and random close packing. Of N bodies in a
 # periodic box the fraction is lower, by some 0.01 for 100.
@@ -29,7 +30,7 @@ BEARING = 1e-5        # of the mean force: contacts that count
 def runs(quick):
     return [Run(name=f"L{length:g}_seed{seed}",
                 scene={"seed": seed, "box": {"volume_fraction": 0.3}, "rods": {"count": QUICK_COUNT if quick else COUNT, "length": length},
-                       "fluid": {"kT": 0.0}, "pressure": {"external": 1.0}, "solver": {"tolerance": TOLERANCE, "max_iterations": 1000000},
+                       "fluid": {"kT": 0.0}, "pressure": {"external": 1.0}, "solver": {"tolerance": TOLERANCE if length else FINE_TOLERANCE, "max_iterations": 1000000},
                        "time": {"step": STEP}, "output": {"contacts": True, "series_every": 20, "trajectory_every": 0}},
                 equilibration=0, production=QUICK_STEPS if quick else STEPS)
             for length in (QUICK_LENGTHS if quick else LENGTHS) for seed in (QUICK_SEEDS if quick else SEEDS)]
