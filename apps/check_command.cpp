@@ -47,14 +47,15 @@ Population population_of(const Scene& scene, const std::optional<Rods>& from_fil
 double seconds_per_rod_and_step(double volume_fraction) {
     return (0.15 + 1.6 * volume_fraction + 12.0 * volume_fraction * volume_fraction) * 1e-6;
 }
-/// What the fluid adds: more blobs of force for longer rods (docs/guide/hydrodynamics.md).
-double seconds_of_fluid_per_rod_and_step(const Scene& scene) {
+/// What the fluid adds: more blobs of force for longer rods, and more applications of the mobility where rods are dense
+/// (docs/guide/hydrodynamics.md).
+double seconds_of_fluid_per_rod_and_step(const Scene& scene, double volume_fraction) {
     if (scene.mobility.model != MobilityModel::hydrodynamic) return 0.0;
-    return (12.0 + 8.0 * scene.rods.length / scene.rods.diameter) * 1e-6;
+    return (8.0 + 4.0 * scene.rods.length / scene.rods.diameter) * (0.2 + 8.0 * volume_fraction) * 1e-6;
 }
 double bytes_of_fluid_per_rod(const Scene& scene) {
     if (scene.mobility.model != MobilityModel::hydrodynamic) return 0.0;
-    return 5000.0 + 1200.0 * scene.rods.length / scene.rods.diameter;
+    return 3000.0 + 800.0 * scene.rods.length / scene.rods.diameter;
 }
 double bytes_per_rod(double volume_fraction) {
     return 480.0 + 2000.0 * volume_fraction + 9000.0 * volume_fraction * volume_fraction;
@@ -284,9 +285,9 @@ void print_cost(const Scene& scene, const Population& population, const Box& box
     const double on_the_way = 0.5 * (phi + densest);  // of exponential growth, mean over the cells
     print("time on one thread, about",
           colony ? "not known: the larger a colony, the longer its contact forces take to find"
-                 : fmt::format("{:.3g} s",
-                               steps * population.count * growth.mean *
-                                   (seconds_per_rod_and_step(on_the_way) + seconds_of_fluid_per_rod_and_step(scene))));
+                 : fmt::format("{:.3g} s", steps * population.count * growth.mean *
+                                               (seconds_per_rod_and_step(on_the_way) +
+                                                seconds_of_fluid_per_rod_and_step(scene, on_the_way))));
 }
 
 ExitCode check(const Scene& scene, const std::string& scene_path) {

@@ -58,7 +58,9 @@ std::string advice(const StepReport& report, const Scene& scene, const Simulatio
     switch (report.status) {
         case LcpStatus::iteration_limit:
             return "  try a smaller " + shorter + ", or a larger solver.max_iterations or tolerance\n" +
-                   (grows(scene) ? "  long files of cells that push each other need solver.tolerance = 1e-3\n" : "");
+                   (grows(scene) ? "  long files of cells that push each other need solver.method = \"apgd\" and "
+                                   "solver.tolerance = 1e-3\n"
+                                 : "");
         case LcpStatus::infeasible:
             return fmt::format("  use a lower {}; this one cannot be reached with this start\n", fraction_words(scene));
         case LcpStatus::not_finite:

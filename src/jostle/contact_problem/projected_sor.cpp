@@ -29,8 +29,6 @@ constexpr int patience_with_float = 3;
 constexpr std::uint64_t early_search = 6;
 /// Momentum is quick to this part of the deepest overlap, and stands still before finer tolerances.
 constexpr double finest_with_momentum = 2e-3;
-/// After so many sweeps there is momentum as a last resort.
-constexpr std::uint64_t sweeps_to_last_resort = 500;
 /// With momentum, first where the largest change is this part of that of the first sweep, then whenever it has fallen
 /// to this part, last at so many tolerances.
 constexpr double first_search_part = 0.1, next_search_part = 0.3, last_search_tolerances = 2.0;
@@ -75,7 +73,6 @@ public:
     void begin_again(bool verify_first) {
         gauss_seidel_.begin_again();
         momentum_.restart();
-        last_resort_.restart();
         warm_ = may_have_momentum_ = at_candidate_ = sweep_all_ = false;
         verify_first_ = verify_first;
         begun_ = outcome_.iterations;
@@ -90,13 +87,12 @@ public:
         if (grown) {
             gauss_seidel_.extend();
             momentum_.restart();
-            last_resort_.restart();
         }
         bool sweep_is_judged = !std::exchange(at_candidate_, false) || grown;
         if (std::exchange(verify_first_, false) && verify()) return verified_end();
         for (;;) {
             if (sweep_is_judged) {
-                if (outcome_.iterations >= settings_.max_iterations || needs_double()) return End::given_up;
+                if (outcome_.iterations >= settings_.max_iterations) return End::given_up;
                 sweep();
                 if (is_interrupted()) return End::lost;
                 if (is_time_to_search()) return End::candidate;
@@ -133,20 +129,18 @@ public:
 
 private:
     void sweep() {
-        SweepMomentum* const momentum = trusted_momentum();
-        change_ = problem_.time_step() * (momentum ? sweep_on(*momentum) : sweep_over_relaxed());
+        change_ = problem_.time_step() * (has_momentum() ? sweep_on() : sweep_over_relaxed());
         ++outcome_.iterations;
     }
 
-    double sweep_on(SweepMomentum& momentum) {
+    double sweep_on() {
         const double last_change = change_ > 0.0 ? change_ / problem_.time_step() : 1.0;
-        const auto [change, turning] = gauss_seidel_.sweep_on(momentum.beta(), last_change);
-        momentum.advance(change, turning > 0);
+        const auto [change, turning] = gauss_seidel_.sweep_on(momentum_.beta(), last_change);
+        momentum_.advance(change, turning > 0);
         return change;
     }
 
     double sweep_over_relaxed() {
-        last_resort_.rest();
         const std::uint64_t sweeps = outcome_.iterations - begun_;
         const bool all = std::exchange(sweep_all_, false) || sweeps % full_sweep_every == full_sweep_every - 1;
         const double omega = relaxation(sweeps, warm_);
@@ -174,24 +168,11 @@ private:
         return change_ <= next_search_change_ && change_ > last_search_tolerances * settings_.tolerance;
     }
 
-    /// Whether sweeps without the last resort have not got on.
-    bool is_late() const {
-        return outcome_.iterations - begun_ >= sweeps_to_last_resort && !problem_.matrix().opens_box() &&
-               !(may_have_momentum_ && momentum_.is_trusted());
-    }
-    /// Forces that nearly balance each other are lost in the rounding of float.
-    bool needs_double() const { return std::is_same_v<Real, float> && is_late(); }
-
-    /// None where sweeps are over-relaxed.
-    SweepMomentum* trusted_momentum() {
-        if (may_have_momentum_ && momentum_.is_trusted()) return &momentum_;
-        return is_late() && last_resort_.is_trusted() ? &last_resort_ : nullptr;
-    }
-    bool has_momentum() { return trusted_momentum() != nullptr; }
+    bool has_momentum() const { return may_have_momentum_ && momentum_.is_trusted(); }
 
     /// The residual is near the last change, or below it; it is computed where that is small, and now and then for the
     /// paper's norm.
-    bool may_be_solved() {
+    bool may_be_solved() const {
         if (outcome_.iterations >= settings_.max_iterations) return true;
         const bool may_be_verified = outcome_.iterations >= next_verification_;
         if (settings_.residual != LcpResidual::length) return may_be_verified;
@@ -212,7 +193,7 @@ private:
     int max_failures_, failures_ = 0;
     bool verify_first_, warm_, may_have_momentum_;
     BlockGaussSeidel<Real> gauss_seidel_;
-    SweepMomentum momentum_, last_resort_{SweepMomentum::Use::as_last_resort};
+    SweepMomentum momentum_;
     std::uint64_t begun_ = 0;  ///< sweeps before it began again
     std::uint64_t next_search_ = early_search, next_verification_ = 0;
     double next_search_change_ = 0.0;  ///< the same by the largest change

@@ -20,8 +20,7 @@ namespace jostle {
 ///
 /// Where a large problem has forces to begin from, what is left are the slow modes of a crowd. If the tolerance is not
 /// fine, sweeps over all contacts are then not over-relaxed, but carried on by momentum (SweepMomentum), unless that
-/// fails (decision 0053), or a plane is pushed. What is not solved after some hundred sweeps goes on with momentum in
-/// double as a last resort (decision 0078).
+/// fails (decision 0053), or a plane is pushed.
 ///
 /// Else only contacts that push, or are about to, take part in most sweeps (BlockGaussSeidel). Before the result is
 /// called solved, forces and velocities are computed anew from gamma, and the residual over all contacts from them. It

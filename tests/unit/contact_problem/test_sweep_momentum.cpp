@@ -121,25 +121,3 @@ TEST_CASE("along a chain momentum saves most of the sweeps") {
     CHECK(with > 0);
     CHECK(10 * with < without);
 }
-
-TEST_CASE(
-    "as a last resort there is never less momentum: it rests where changes grow, and begins anew where they stay") {
-    SweepMomentum momentum(SweepMomentum::Use::as_last_resort);
-    double change = 1.0;
-    for (int growth = 0; growth < 5; ++growth) {
-        for (int n = 0; n < 300; ++n) momentum.advance(change *= 0.999, false);
-        CHECK(momentum.beta() > 0.95);
-        momentum.advance(101.0 * change, false);
-        CHECK(momentum.beta() == 0.0);
-        int rests = 0;
-        for (; !momentum.is_trusted(); ++rests) momentum.rest();
-        CHECK(rests == 50);
-    }
-    for (int n = 0; n < 1000; ++n) {
-        CHECK(momentum.is_trusted());
-        momentum.advance(2.0 * change, false);
-    }
-    CHECK(momentum.beta() == 0.0);
-    for (int n = 0; n < 3000; ++n) momentum.advance(change *= 0.999, false);
-    CHECK(momentum.beta() > 0.999);
-}
