@@ -65,15 +65,13 @@ def evaluate(report, runs_by_name, quick):
 
 
 def profiles(run, edges, area):
-    """(frames, layers) densities, and pressures (kT/D3) by the weight above the middle of each layer, mean over the layer."""
+    """(frames, layers) densities, and pressures (kT/D3) by the weight above, means over layers of 1 D."""
     with trajectory(run) as file:
         rods = file["particles/rods"]
         kept = rods["position/step"][...] >= run.equilibration
         heights = rods["position/value"][..., 2][kept]
     counts = numpy.array([numpy.histogram(frame, edges)[0] for frame in heights])
     above = counts[:, ::-1].cumsum(axis=1)[:, ::-1] - counts
-    width = numpy.diff(edges)
-    # Of the spheres in the layer itself each presses on what lies beneath it: on the part of the layer below its height.
-    below = numpy.array([numpy.histogram(frame, edges, weights=frame - edges[:-1][numpy.clip(numpy.digitize(frame, edges) - 1, 0, len(width) - 1)])[0]
-                         for frame in heights]) / width
-    return counts / (area * width), WEIGHT * (above + below) / area
+    # Of the spheres in the layer itself each presses on what lies beneath it: on the part of the layer, 1 D, below its height.
+    below = numpy.array([numpy.histogram(frame, edges, weights=frame % 1.0)[0] for frame in heights])
+    return counts / area, WEIGHT * (above + below) / area

@@ -57,6 +57,10 @@ TEST_CASE("with a fluid, what is not known is refused, one line each") {
     CHECK(refused_key([](Scene& s) { s.mobility.cutoff = 0.9; }) == "mobility.cutoff");
     CHECK(refused_key([](Scene& s) { s.mobility.cutoff = 20.5; }) == "mobility.cutoff");
     CHECK(refused_key([](Scene& s) { s.solver.tolerance = 0.9e-8; }) == "solver.tolerance");
+    CHECK(refused_key([](Scene& s) {
+              s.solver.tolerance = 0.9e-8;
+              s.box.periodic = {false, false, false};
+          }) == "solver.tolerance");
     CHECK(refused_key([](Scene& s) { s.mobility.tolerance = 1e-7; }) == "mobility.tolerance");
     CHECK(refused_key([](Scene& s) { s.motion.force_dipole = 0.1; }) == "motion.force_dipole");  // nothing swims
     CHECK(refused_key([](Scene& s) { s.schedule.kT.push_back({5.0, 2.0}); }) == "schedule.kT");
