@@ -62,10 +62,12 @@ void check_same(const Trace& a, const Trace& b) {
 constexpr int no_ranks = 0;
 
 /// `rebalance_every`: so many steps; 0: where ranks have more work than others.
-Trace trace_of(const Scene& scene, const State& start, int steps, int rank_count, int rebalance_every = 0) {
+Trace trace_of(const Scene& scene, const State& start, int steps, int rank_count, int rebalance_every = 0,
+               std::size_t colours_per_exchange = 0) {
     const auto run = [&](const Ranks& ranks) {
         Simulation simulation = assemble(scene, start);
         simulation.share(ranks);
+        simulation.exchange_once_in(colours_per_exchange);
         Trace own;
         for (int k = 0; k < steps; ++k) {
             if (rebalance_every > 0 && k % rebalance_every == 0) simulation.rebalance();
@@ -119,8 +121,10 @@ void check_ranks(const Scene& scene, const State& start, int steps, std::initial
     for (const int count : rank_counts) {
         if (is_slow && count > 3) continue;
         CAPTURE(count);
-        const Trace shared = trace_of(scene, start, steps, count);
-        check_same(shared, alone);
+        for (const int colours_per_exchange : {1, count, 64}) {
+            CAPTURE(colours_per_exchange);
+            check_same(trace_of(scene, start, steps, count, 0, static_cast<std::size_t>(colours_per_exchange)), alone);
+        }
         if (count < 3) continue;
         const Trace moved = trace_of(scene, start, steps, count, 3);
         check_same(moved, alone);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <numeric>
 #include <utility>
 
 #include "jostle/parallel/parallel_for.hpp"
@@ -32,20 +31,23 @@ bool active_at_first(const CoupledBlock&) {
 
 template <class Real>
 BlockGaussSeidel<Real>::BlockGaussSeidel(const ContactProblem& problem, double tolerance,
-                                         const std::vector<double>& start)
+                                         const std::vector<double>& start, std::size_t colours_per_exchange)
     : problem_(problem),
       matrix_(problem.matrix()),
       b_(problem.constant()),
       start_(start),
       activation_threshold_(activation_tolerances * tolerance / problem.time_step()),
       still_(still_part * tolerance / problem.time_step()),
+      colours_per_exchange_(colours_per_exchange),
       pair_colours_(problem.matrix().box().plane) {
     extend();
 }
 
 template <class Real>
 void BlockGaussSeidel<Real>::extend() {
-    velocities_.resize(matrix_.rods().size());
+    velocities_.resize(local_count_);  // without those of other ranks' rods, whose contacts are borrowed
+    local_count_ = matrix_.rods().size();
+    velocities_.resize(local_count_);
     const Domain& domain = problem_.domain();
     const auto& new_pairs = pair_colours_.extend(matrix_.contact_matrix(), domain);
     colours_.resize(new_pairs.size());
@@ -56,12 +58,37 @@ void BlockGaussSeidel<Real>::extend() {
         if (domain.is_shared())
             append_between_ranks(colours_[k], others);
         else
-            append(colours_[k].here, others);
+            append(colours_[k].inner, others);
     }
+    plan_messages();
+}
+
+/// Ranks exchange velocities as often as is wanted, and once a colour where contacts push a plane: these are never
+/// borrowed.
+template <class Real>
+void BlockGaussSeidel<Real>::plan_messages() {
+    const Domain& domain = problem_.domain();
     if (!domain.is_shared()) return;
+    if (borrows_contacts()) {
+        Borrowed borrowed = borrow_contacts(domain, matrix_, std::span(colours_), colours_per_exchange_);
+        all_messages_ = std::move(borrowed.all_messages);
+        borrowed_rods_.assign(matrix_.rods().begin(), matrix_.rods().end());
+        borrowed_rods_.insert(borrowed_rods_.end(), borrowed.rods.begin(), borrowed.rods.end());
+        velocities_.resize(borrowed_rods_.size());
+        return;
+    }
     std::vector<ContactPair> between;
-    for (const Colour& colour : colours_) between.insert(between.end(), colour.between.begin(), colour.between.end());
+    for (Colour& colour : colours_) {
+        colour.messages = BorderMessages(domain, matrix_.contact_matrix(), colour.between, sizeof velocities_.front());
+        between.insert(between.end(), colour.between.begin(), colour.between.end());
+    }
     all_messages_ = BorderMessages(domain, matrix_.contact_matrix(), between, sizeof velocities_.front());
+}
+
+/// The local rods, and those behind them whose contacts are borrowed.
+template <class Real>
+LocalRods<Real> BlockGaussSeidel<Real>::local_rods() {
+    return {borrowed_rods_.empty() ? matrix_.rods().data() : borrowed_rods_.data(), velocities_.data()};
 }
 
 template <class Real>
@@ -78,10 +105,10 @@ void BlockGaussSeidel<Real>::begin_again() {
         group.sort_out(0, [](const auto& item) { return active_at_first(item); });
     };
     for (Colour& colour : colours_) {
-        for_groups(colour.here, begin);
-        for_groups(colour.elsewhere, begin);
+        colour.for_own(begin);
         colour.at_plane.for_each([this](ScalarBlock<Real>& contact) { begin_again(contact); });
     }
+    if (borrows_contacts()) plan_messages();
 }
 
 template <class Real>
@@ -99,7 +126,7 @@ void BlockGaussSeidel<Real>::begin_again(CoupledBlock& pair) const {
 }
 
 template <class Real>
-void BlockGaussSeidel<Real>::append(Kinds& contacts, std::span<const ContactPair> new_pairs) {
+void BlockGaussSeidel<Real>::append(ContactKinds<Real>& contacts, std::span<const ContactPair> new_pairs) {
     std::vector<ContactPair> singles, others;
     for (const ContactPair& pair : new_pairs) (pair.count == 1 ? singles : others).push_back(pair);
     append(contacts.singles, singles, [this](const ContactPair& pair) { return contact_of(pair); });
@@ -122,52 +149,55 @@ std::vector<ContactPair> BlockGaussSeidel<Real>::append_at_plane(Colour& colour,
 
 template <class Real>
 void BlockGaussSeidel<Real>::append_between_ranks(Colour& colour, std::span<const ContactPair> new_pairs) {
-    const ContactMatrix& contact_matrix = matrix_.contact_matrix();
-    std::vector<ContactPair> here, elsewhere;
+    std::vector<ContactPair> inner, border, elsewhere;
     for (const ContactPair& pair : new_pairs) {
-        (problem_.is_elsewhere()[pair.first] == 0 ? here : elsewhere).push_back(pair);
-        if (is_between_ranks(pair, contact_matrix, problem_.domain())) colour.between.push_back(pair);
+        if (!is_between_ranks(pair, matrix_.contact_matrix(), problem_.domain())) {
+            inner.push_back(pair);
+            continue;
+        }
+        (problem_.is_elsewhere()[pair.first] == 0 ? border : elsewhere).push_back(pair);
+        colour.between.push_back(pair);
     }
-    append(colour.here, here);
+    append(colour.inner, inner);
+    append(colour.border, border);
     append(colour.elsewhere, elsewhere);
-    colour.messages = BorderMessages(problem_.domain(), contact_matrix, colour.between, sizeof velocities_.front());
 }
 
-/// Of ghosts, from their owners, for the pairs of a colour.
+/// Calls counted(group) for the contacts of a colour that are added up here, and other(group) for those that are not;
+/// for this rank's own rods while velocities of other ranks' rods travel.
 template <class Real>
-void BlockGaussSeidel<Real>::bring_velocities(Colour& colour) {
-    colour.messages.bring(std::span(velocities_));
+template <class Body, class OtherBody>
+void BlockGaussSeidel<Real>::for_contacts(Colour& colour, Body&& counted, OtherBody&& other) {
+    colour.messages.begin(std::span<const SpatialVector<Real>>(velocities_));
+    colour.inner.for_groups(counted);
+    colour.messages.end(std::span(velocities_));
+    colour.border.for_groups(counted);
+    colour.elsewhere.for_groups(other);
+    colour.borrowed.for_groups(other);
 }
 
 template <class Real>
 double BlockGaussSeidel<Real>::sweep(double omega, SweepOver over) {
     const bool all = over == SweepOver::all;
-    const LocalRods<Real> local_rods{matrix_.rods().data(), velocities_.data()};
     if (std::exchange(all_are_stirred_, false)) note_stirred_rods();
     const Relaxation by{omega, static_cast<float>(++sweeps_), still_};
     double largest = 0.0;
     const auto pass = [&](auto& group) {
         const std::size_t items = all ? group.items.size() : group.all_active;
-        largest =
-            std::max(largest, parallel_max_of_blocks(group.active.size(), items, [&](std::size_t number) {
-                         const auto block = group.block(number);
-                         const std::size_t count = all ? block.size() : group.active[number];
-                         return sweep_over(block.first(count), group.block_of(group.visits, number), by, local_rods);
-                     }));
+        largest = std::max(
+            largest, parallel_max_of_blocks(group.active.size(), items, [&](std::size_t number) {
+                const auto block = group.block(number);
+                const std::size_t count = all ? block.size() : group.active[number];
+                return sweep_over(block.first(count), group.block_of(group.visits, number), by, local_rods());
+            }));
     };
     for (Colour& colour : colours_) {
-        bring_velocities(colour);
-        for_groups(colour.here, pass);
-        for_groups(colour.elsewhere, pass);
+        for_contacts(colour, pass, pass);
         largest = std::max(largest, sweep_at_plane(colour, by));
     }
     if (all) {
         all_messages_.bring(std::span(velocities_));
-        const auto find = [this](auto& group) { this->find_active(group); };
-        for (Colour& colour : colours_) {
-            for_groups(colour.here, find);
-            for_groups(colour.elsewhere, find);
-        }
+        for (Colour& colour : colours_) colour.for_all([this](auto& group) { this->find_active(group); });
     }
     return problem_.domain().ranks().largest(largest);
 }
@@ -175,8 +205,7 @@ double BlockGaussSeidel<Real>::sweep(double omega, SweepOver over) {
 /// Not over-relaxed: where one of many forces ends, a common factor would be 1.
 template <class Real>
 double BlockGaussSeidel<Real>::sweep_at_plane(Colour& colour, const Relaxation& by) {
-    const LocalRods<Real> local_rods{matrix_.rods().data(), velocities_.data()};
-    return colour.at_plane.sweep(plane_velocity_, matrix_.box().mobility, by, local_rods, problem_.domain().ranks());
+    return colour.at_plane.sweep(plane_velocity_, matrix_.box().mobility, by, local_rods(), problem_.domain().ranks());
 }
 
 template <class Real>
@@ -189,7 +218,6 @@ SweepProgress BlockGaussSeidel<Real>::sweep_on(double beta, double last_change) 
     carry_on_velocities(beta);
     stir_all();
     const Extrapolation by{beta, turning_unit * last_change * last_change};
-    const LocalRods<Real> local_rods{matrix_.rods().data(), velocities_.data()};
     std::atomic<std::int64_t> turning = 0, turning_elsewhere = 0;
     double largest = 0.0;
     const auto pass_and_add = [&](auto& group, std::atomic<std::int64_t>& turned) {
@@ -197,17 +225,16 @@ SweepProgress BlockGaussSeidel<Real>::sweep_on(double beta, double last_change) 
         const auto sweep_block = [&](std::size_t number) {
             const auto items = group.block(number);
             const auto last = std::span(group.last).subspan(number * group.block_size, items.size());
-            const SweepProgress progress = jostle::sweep_on(items, last, by, local_rods);
+            const SweepProgress progress = jostle::sweep_on(items, last, by, local_rods());
             turned += progress.turning;
             return progress.change;
         };
         largest = std::max(largest, parallel_max_of_blocks(group.active.size(), group.items.size(), sweep_block));
     };
-    for (Colour& colour : colours_) {
-        bring_velocities(colour);
-        for_groups(colour.here, [&](auto& group) { pass_and_add(group, turning); });
-        for_groups(colour.elsewhere, [&](auto& group) { pass_and_add(group, turning_elsewhere); });
-    }
+    for (Colour& colour : colours_)
+        for_contacts(
+            colour, [&](auto& group) { pass_and_add(group, turning); },
+            [&](auto& group) { pass_and_add(group, turning_elsewhere); });
     const Ranks& ranks = problem_.domain().ranks();
     return {ranks.largest(largest), ranks.sum(turning)};
 }
@@ -252,7 +279,7 @@ void BlockGaussSeidel<Real>::refresh(ContactSolution& solution) {
     solution.box_rate = plane_velocity_ = problem_.box_rate(solution.gamma);
     if (!problem_.domain().is_shared()) return;
     problem_.fetch_velocities(solution.velocities);  // the forces on ghosts are not all known here
-    parallel_for(velocities_.size(), [&](std::size_t local) {
+    parallel_for(local_count_, [&](std::size_t local) {
         if (problem_.domain().owns(matrix_.contact_matrix().rods()[local])) return;
         SpatialVector<Real> exact(solution.velocities[local]);
         exact.stir(velocities_[local].stirred());
@@ -262,7 +289,7 @@ void BlockGaussSeidel<Real>::refresh(ContactSolution& solution) {
 
 template <class Real>
 template <class Item, class MakeItem>
-void BlockGaussSeidel<Real>::append(Group<Item>& group, std::span<const ContactPair> pairs, MakeItem&& item_of) {
+void BlockGaussSeidel<Real>::append(ContactGroup<Item>& group, std::span<const ContactPair> pairs, MakeItem&& item_of) {
     const std::size_t before = group.items.size();
     group.items.resize(before + pairs.size());
     group.visits.resize(group.items.size());
@@ -271,31 +298,6 @@ void BlockGaussSeidel<Real>::append(Group<Item>& group, std::span<const ContactP
         group.visits[before + n] = {pairs[n].i == no_local_index ? pairs[n].j : pairs[n].i, pairs[n].j};
     });
     group.sort_out(before, [](const Item& item) { return active_at_first(item); });
-}
-
-template <class Real>
-template <class Item>
-template <class IsActive>
-void BlockGaussSeidel<Real>::Group<Item>::sort_out(std::size_t first, IsActive&& is_active) {
-    const std::size_t known_blocks = first / block_size;  // with nothing new
-    active.resize((items.size() + block_size - 1) / block_size, 0);
-    parallel_for_blocks(items.size() - known_blocks * block_size, block_size,
-                        [&](std::size_t new_block, std::size_t, std::size_t) {
-                            const std::size_t number = known_blocks + new_block, begin = number * block_size;
-                            const auto in_block = block(number);
-                            std::size_t k = first > begin ? first - begin : 0;
-                            std::size_t front = k > 0 ? active[number] : 0;
-                            for (; k < in_block.size(); ++k) {
-                                if (!is_active(in_block[k])) continue;
-                                if (front != k) {
-                                    std::swap(in_block[front], in_block[k]);
-                                    std::swap(visits[begin + front], visits[begin + k]);
-                                }
-                                ++front;
-                            }
-                            active[number] = static_cast<std::uint8_t>(front);
-                        });
-    all_active = std::accumulate(active.begin(), active.end(), std::size_t{0});
 }
 
 template <class Real>
@@ -354,7 +356,7 @@ CoupledBlock BlockGaussSeidel<Real>::pair_of(const ContactPair& touching) const 
 
 template <class Real>
 template <class Item>
-void BlockGaussSeidel<Real>::find_active(Group<Item>& group) {
+void BlockGaussSeidel<Real>::find_active(ContactGroup<Item>& group) {
     group.sort_out(0, [&](const Item& item) { return may_push(item, velocities_.data(), activation_threshold_); });
 }
 
@@ -366,8 +368,7 @@ void BlockGaussSeidel<Real>::for_all_forces(Body&& body) {
         parallel_for(group.items.size(), [&](std::size_t k) { for_forces(group.items[k], body); });
     };
     for (Colour& colour : colours_) {
-        for_groups(colour.here, pass);
-        for_groups(colour.elsewhere, pass);
+        colour.for_own(pass);
         colour.at_plane.for_each([&](ScalarBlock<Real>& contact) { for_forces(contact, body); });
     }
 }

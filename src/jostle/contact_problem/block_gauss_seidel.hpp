@@ -1,16 +1,12 @@
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
-#include "jostle/contact_problem/border_messages.hpp"
-#include "jostle/contact_problem/contact_blocks.hpp"
+#include "jostle/contact_problem/borrowed_contacts.hpp"
+#include "jostle/contact_problem/contact_groups.hpp"
 #include "jostle/contact_problem/contact_problem.hpp"
-#include "jostle/contact_problem/pair_colours.hpp"
-#include "jostle/contact_problem/plane_contacts.hpp"
 
 namespace jostle {
 
@@ -27,13 +23,14 @@ enum class SweepOver { all, active };
 /// feels what any of them does, so that none stands still alone.
 ///
 /// A pair between ranks is solved by both, to the same bits: before each colour the velocities of the rods that such
-/// pairs of it share are exchanged. What sweeps return is of all ranks.
+/// pairs of it share are exchanged, or before some colours only (borrow_contacts). What sweeps return is of all ranks.
 template <class Real>
 class BlockGaussSeidel {
 public:
     /// Starts from `start`, as many numbers as there are contacts; contacts that come later start from what is then
-    /// there. Holds references.
-    BlockGaussSeidel(const ContactProblem& problem, double tolerance, const std::vector<double>& start);
+    /// there. `colours_per_exchange`: of velocities between ranks. Holds references.
+    BlockGaussSeidel(const ContactProblem& problem, double tolerance, const std::vector<double>& start,
+                     std::size_t colours_per_exchange = 1);
 
     /// Takes in the contacts that the problem has grown by; active are those whose gap closes without forces.
     void extend();
@@ -58,58 +55,26 @@ public:
     void refresh(ContactSolution& solution);
 
 private:
-    /// Contacts of one kind and colour. Their order does not matter to the result: those active come first in each
-    /// block of as many as stay in a near cache with their rods' velocities.
-    template <class Item>
-    struct Group {
-        static constexpr std::size_t block_size = 128;
-        std::vector<Item> items;
-        std::vector<Visit> visits;                ///< (items)
-        std::vector<typename Item::Forces> last;  ///< (items) by what the last `sweep_on` changed their forces
-        std::vector<std::uint8_t> active;         ///< (blocks) how many are
-        std::size_t all_active = 0;
-
-        template <class T>
-        std::span<T> block_of(std::vector<T>& of_items, std::size_t number) {
-            const std::size_t begin = number * block_size;
-            return std::span(of_items).subspan(begin, std::min(block_size, items.size() - begin));
-        }
-        std::span<Item> block(std::size_t number) { return block_of(items, number); }
-
-        /// Brings the items from `first` on that are active to the front of their blocks; of those before, as many are
-        /// as `active` tells.
-        template <class IsActive>
-        void sort_out(std::size_t first, IsActive&& is_active);
-    };
-    struct Kinds {
-        Group<ScalarBlock<Real>> singles;
-        Group<CoupledBlock> pairs;
-    };
-    struct Colour {
-        Kinds here, elsewhere;  ///< elsewhere: that another rank has to add up
-        PlaneContacts<Real> at_plane;
-        std::vector<ContactPair> between;  ///< ranks
-        BorderMessages messages;           ///< of their rods
-    };
+    using Colour = ColourContacts<Real>;
 
     ScalarBlock<Real> contact_of(const ContactPair& pair) const;
     CoupledBlock pair_of(const ContactPair& pair) const;
     void begin_again(ScalarBlock<Real>& contact) const;
     void begin_again(CoupledBlock& pair) const;
     template <class Item, class MakeItem>
-    static void append(Group<Item>& group, std::span<const ContactPair> pairs, MakeItem&& item_of);
-    void append(Kinds& contacts, std::span<const ContactPair> new_pairs);
+    static void append(ContactGroup<Item>& group, std::span<const ContactPair> pairs, MakeItem&& item_of);
+    void append(ContactKinds<Real>& contacts, std::span<const ContactPair> new_pairs);
     std::vector<ContactPair> append_at_plane(Colour& colour, std::span<const ContactPair> new_pairs);
     void append_between_ranks(Colour& colour, std::span<const ContactPair> new_pairs);
-    void bring_velocities(Colour& colour);
-    /// Calls body(group) for those of a colour that are not empty.
-    template <class Body>
-    static void for_groups(Kinds& contacts, Body&& body) {
-        if (!contacts.singles.items.empty()) body(contacts.singles);
-        if (!contacts.pairs.items.empty()) body(contacts.pairs);
+    bool borrows_contacts() const {
+        return problem_.domain().is_shared() && colours_per_exchange_ > 1 && !matrix_.box().plane;
     }
+    void plan_messages();
+    LocalRods<Real> local_rods();
+    template <class Body, class OtherBody>
+    void for_contacts(Colour& colour, Body&& counted, OtherBody&& other);
     template <class Item>
-    void find_active(Group<Item>& group);
+    void find_active(ContactGroup<Item>& group);
     double sweep_at_plane(Colour& colour, const Relaxation& by);
     void note_stirred_rods();
     void carry_on_velocities(double beta);
@@ -121,8 +86,11 @@ private:
     const std::vector<double>& b_;
     const std::vector<double>& start_;
     double activation_threshold_, still_;
-    std::vector<SpatialVector<Real>> velocities_;         ///< (n) V, kept up to date
-    std::vector<SpatialVector<Real>> former_velocities_;  ///< (n) V of the forces before the last `sweep_on`
+    std::size_t colours_per_exchange_;
+    std::size_t local_count_ = 0;                         ///< n
+    std::vector<MobileRod> borrowed_rods_;                ///< (m >= n) local rods and those of borrowed contacts; or none
+    std::vector<SpatialVector<Real>> velocities_;         ///< (n or m) V, kept up to date
+    std::vector<SpatialVector<Real>> former_velocities_;  ///< (n or m) V of the forces before the last `sweep_on`
     double plane_velocity_ = 0.0;                         ///< of the plane that contacts push, kept up to date
     std::uint32_t sweeps_ = 0;                            ///< so far; numbers them
     bool all_are_stirred_ = false;                        ///< to the next sweep no rod stands still

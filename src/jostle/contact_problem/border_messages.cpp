@@ -28,13 +28,25 @@ BorderMessages::BorderMessages(const Domain& domain, const ContactMatrix& contac
         return locals;
     };
     std::vector<Exchange::Peer> messages;
-    for (std::size_t p = 0; p < by_peer.size(); ++p) {
-        if (by_peer[p].sent.empty()) continue;
-        peers_.push_back({in_order(by_peer[p].sent), in_order(by_peer[p].received)});
-        messages.push_back(
-            {domain.rank_of_peer(p), bytes * peers_.back().sent.size(), bytes * peers_.back().received.size()});
-    }
+    for (std::size_t p = 0; p < by_peer.size(); ++p)
+        if (!by_peer[p].sent.empty())
+            add_peer(messages, domain.rank_of_peer(p), {in_order(by_peer[p].sent), in_order(by_peer[p].received)},
+                     bytes);
     if (!peers_.empty()) exchange_ = domain.ranks().exchange(std::move(messages));
+}
+
+BorderMessages::BorderMessages(const Ranks& ranks, const BorderLists& sent, const BorderLists& received,
+                               std::size_t bytes) {
+    std::vector<Exchange::Peer> messages;
+    for (std::size_t rank = 0; rank < sent.size(); ++rank)
+        if (!sent[rank].empty() || !received[rank].empty())
+            add_peer(messages, static_cast<int>(rank), {sent[rank], received[rank]}, bytes);
+    if (!peers_.empty()) exchange_ = ranks.exchange(std::move(messages));
+}
+
+void BorderMessages::add_peer(std::vector<Exchange::Peer>& messages, int rank, Peer peer, std::size_t bytes) {
+    messages.push_back({rank, bytes * peer.sent.size(), bytes * peer.received.size()});
+    peers_.push_back(std::move(peer));
 }
 
 }  // namespace jostle

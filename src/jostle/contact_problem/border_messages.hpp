@@ -20,6 +20,9 @@ inline bool is_between_ranks(const ContactPair& pair, const ContactMatrix& conta
     return !owns(pair.i) || !owns(pair.j);
 }
 
+/// Local indices of rods, for each rank.
+using BorderLists = std::vector<std::vector<std::uint32_t>>;
+
 /// Values of rods that pairs between ranks share: each rank sends those of its own rods, and receives those of its
 /// ghosts. Two ranks have the same pairs between them, so each knows what the other sends.
 class BorderMessages {
@@ -30,11 +33,21 @@ public:
     BorderMessages(const Domain& domain, const ContactMatrix& contact_matrix, std::span<const ContactPair> pairs,
                    std::size_t bytes);
 
+    /// Own rods that are `sent` to each rank, and those `received` from each, in the order in which it sends them.
+    BorderMessages(const Ranks& ranks, const BorderLists& sent, const BorderLists& received, std::size_t bytes);
+
     bool empty() const { return !exchange_; }
 
     /// `values`: (n) by local indices; those of ghosts become their owners'.
     template <class T>
     void bring(std::span<T> values) {
+        begin(std::span<const T>(values));
+        end(values);
+    }
+
+    /// The same in two parts: what lies between is done while messages travel, and leaves these values as they are.
+    template <class T>
+    void begin(std::span<const T> values) {
         static_assert(std::is_trivially_copyable_v<T>);
         if (empty()) return;
         for (std::size_t p = 0; p < peers_.size(); ++p) {
@@ -45,6 +58,10 @@ public:
             }
         }
         exchange_->begin();
+    }
+    template <class T>
+    void end(std::span<T> values) {
+        if (empty()) return;
         exchange_->end();
         for (std::size_t p = 0; p < peers_.size(); ++p) {
             const std::byte* place = exchange_->in(p).data();
@@ -57,8 +74,10 @@ public:
 
 private:
     struct Peer {
-        std::vector<std::uint32_t> sent, received;  ///< local indices, in the order of ids
+        std::vector<std::uint32_t> sent, received;  ///< local indices, in an order that both ranks know
     };
+
+    void add_peer(std::vector<Exchange::Peer>& messages, int rank, Peer peer, std::size_t bytes);
 
     std::vector<Peer> peers_;
     std::unique_ptr<Exchange> exchange_;

@@ -65,7 +65,7 @@ public:
           verify_first_(verify_first),
           warm_(problem.begins_warm()),
           may_have_momentum_(may_have_momentum),
-          gauss_seidel_(problem, settings.tolerance, solution.gamma) {
+          gauss_seidel_(problem, settings.tolerance, solution.gamma, settings.colours_per_exchange) {
         gauss_seidel_.refresh(solution_);
     }
 

@@ -42,6 +42,7 @@ struct LcpSettings {
     double tolerance = 1e-5;               ///< a length for LcpResidual::length; in the units of the problem
     std::uint64_t max_iterations = 10000;  ///< applications of A
     BarzilaiBorwein step_rule = BarzilaiBorwein::bb1;
+    std::size_t colours_per_exchange = 1;  ///< of velocities between ranks; no bit depends on it
     /// Asked again and again while a solution is sought; once it says true the search ends. Empty: it never does.
     std::function<bool()> interrupted = {};
 

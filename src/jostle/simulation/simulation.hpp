@@ -62,6 +62,11 @@ public:
     /// At the beginning of the next step rods may change their rank, for cuts that give all ranks the same work.
     void rebalance() { balance_ = gathering_ = true; }
 
+    /// Ranks exchange velocities once in so many colours of a sweep; 0, as is the default: as often as makes steps
+    /// fastest. No bit depends on it.
+    void exchange_once_in(std::size_t colours) { wanted_colours_per_exchange_ = colours; }
+    std::size_t colours_per_exchange() const { return settings_.lcp.colours_per_exchange; }
+
     /// Makes one step (step.cpp). Where contacts cannot be resolved the report says so, and the state stays as it was.
     StepReport step();
 
@@ -121,6 +126,8 @@ private:
     void divide();
     std::vector<LineageEvent> divide_own();
     void begin_threads();
+    void begin_exchanges();
+    void end_exchanges(double seconds);
     StepContext context() const { return {settings_.seed, state_.clock.step, settings_.time_step}; }
 
     State state_;
@@ -133,6 +140,8 @@ private:
     std::size_t shared_rods_ = 0;
     bool balance_ = false, gathering_ = false;  ///< when neighbours are listed next; in the next step
     Work work_;
+    std::size_t wanted_colours_per_exchange_ = 0;
+    ChoiceByTime exchanges_;
     double skin_ = 0.0;               ///< of the step that found its neighbours not known
     std::size_t counted_forces_ = 0;  ///< previous forces that this rank counts: the first ones
     std::size_t previous_forces_in_all_ = 0;

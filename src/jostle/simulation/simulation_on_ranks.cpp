@@ -65,6 +65,20 @@ void Simulation::share(const Ranks& ranks) {
     gather(0.0);  // springs need their rods; the first step will ask for neighbours
 }
 
+/// Velocities are exchanged once in as many colours as makes the steps of the slowest rank fastest: seldom where few
+/// rods wait for messages, and before each colour where contacts that are solved twice would cost more.
+void Simulation::begin_exchanges() {
+    if (!domain_.is_shared()) return;
+    constexpr int most = 16;  // times as often as where it is done most seldom
+    settings_.lcp.colours_per_exchange = wanted_colours_per_exchange_;
+    if (wanted_colours_per_exchange_ == 0)
+        settings_.lcp.colours_per_exchange = static_cast<std::size_t>(most / exchanges_.next(most));
+}
+
+void Simulation::end_exchanges(double seconds) {
+    if (domain_.is_shared() && wanted_colours_per_exchange_ == 0) exchanges_.took(domain_.ranks().largest(seconds));
+}
+
 /// Whether the neighbour list of every rank covers the step, and none is asked for anew.
 bool Simulation::neighbours_are_known(const StepGeometry& geometry) {
     if (!domain_.is_shared()) return true;

@@ -43,8 +43,12 @@ std::size_t contacts_of_all_ranks(const ContactProblem& problem) {
 
 StepReport Simulation::step() {
     const WorkTimer timer(domain_.ranks(), work_);
+    begin_exchanges();
     for (double skins = 1.0;; skins *= 2.0) {  // one does, but where a box changes much
-        if (const auto report = attempt()) return *report;
+        if (const auto report = attempt()) {
+            end_exchanges(timer.seconds());
+            return *report;
+        }
         gather(skins);
     }
 }

@@ -29,10 +29,11 @@ public:
     WorkTimer(const Ranks& ranks, Work& work)
         : ranks_(ranks), work_(work), waited_(ranks.seconds_waited()), began_(Clock::now()) {}
     ~WorkTimer() {
-        work_.seconds +=
-            std::chrono::duration<double>(Clock::now() - began_).count() - (ranks_.seconds_waited() - waited_);
+        work_.seconds += seconds() - (ranks_.seconds_waited() - waited_);
         ++work_.steps;
     }
+    /// Since it began, waiting for others included.
+    double seconds() const { return std::chrono::duration<double>(Clock::now() - began_).count(); }
     WorkTimer(const WorkTimer&) = delete;
     WorkTimer& operator=(const WorkTimer&) = delete;
 
