@@ -70,6 +70,11 @@ Command add_run_command(CLI::App& app, int argc, char** argv) {
     run->add_flag("--fresh", options->fresh, "start anew; an earlier run in the folder is moved aside, not deleted");
     CLI::Option* quiet = run->add_flag("--quiet", options->quiet, "print errors only");
     run->add_flag("--json", options->json, "print the summary as JSON, nothing else")->excludes(quiet);
+    run->add_option(
+           "--colours-per-exchange", options->colours_per_exchange,
+           "ranks (of mpirun, srun) exchange velocities once in so many colours of a sweep, on which the result "
+           "does not depend; default: as often as makes steps fastest")
+        ->check(CLI::Range(1, 64));
     run->add_flag("--alone", options->alone,
                   "one process makes this run, though a launcher (mpirun, srun) has started several");
     run->add_flag("--spin-waiting", *spin_waiting,

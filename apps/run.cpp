@@ -106,6 +106,7 @@ void Run::share() {
     if (ranks_.alone()) return;
     measurement_.share(ranks_);
     simulation_.share(ranks_);
+    simulation_.exchange_once_in(options_.colours_per_exchange);
 }
 
 /// Whether this rank ends the run by itself, with all rods; the others have done their part.

@@ -97,6 +97,9 @@ void RunRecord::write(const jostle::Simulation& simulation, const std::string& e
                                   {"last_step", simulation.clock().step},
                                   {"wall_seconds", seconds_now() - began_},
                                   {"exit_reason", exit_reason}});
-    if (ranks_ > 1) record["sessions"].back()["hosts"] = hosts_;
+    if (ranks_ > 1) {
+        record["sessions"].back()["colours_per_exchange"] = simulation.colours_per_exchange();
+        record["sessions"].back()["hosts"] = hosts_;
+    }
     jostle::replace_file(directory_.file("run.json"), sealed_json(record));
 }

@@ -23,7 +23,7 @@ namespace {
 
 /// Of all ranks together.
 struct Traffic {
-    std::atomic<std::uint64_t> exchanges = 0, messages = 0, bytes = 0, agreements = 0;
+    std::atomic<std::uint64_t> exchanges = 0, messages = 0, bytes = 0, agreements = 0, deals = 0, bytes_dealt = 0;
 };
 
 class CountedExchange final : public Exchange {
@@ -70,7 +70,11 @@ public:
         ++traffic_.agreements;
         ranks_.add_up(numbers);
     }
-    std::vector<Bytes> deal(const std::vector<Bytes>& to) override { return ranks_.deal(to); }
+    std::vector<Bytes> deal(const std::vector<Bytes>& to) override {
+        ++traffic_.deals;
+        for (const Bytes& bytes : to) traffic_.bytes_dealt += bytes.size();
+        return ranks_.deal(to);
+    }
     Bytes of_first(Bytes message) override {
         const std::string_view text(reinterpret_cast<const char*>(message.data()), message.size());
         const std::string told = ranks_.of_first(text);
@@ -105,7 +109,7 @@ Scene scene_of(const Case& now) {
     return scene;
 }
 
-void print_row(const Case& now, const Scene& scene, const State& start, int count) {
+void print_row(const Case& now, const Scene& scene, const State& start, int count, std::size_t colours_per_exchange) {
     constexpr int steps_before = 30, steps = 10;
     Traffic traffic;
     std::atomic<std::uint64_t> contacts_of_ranks = 0, owned = 0, near = 0, ghosts = 0;
@@ -114,9 +118,13 @@ void print_row(const Case& now, const Scene& scene, const State& start, int coun
         Simulation simulation = assemble(scene, start);
         CountedLink link(ranks, traffic);
         simulation.share(Ranks(link));
+        simulation.exchange_once_in(colours_per_exchange);
         for (int k = 0; k < steps_before; ++k) simulation.step();
         ranks.any(false);  // all are there
-        if (ranks.rank() == 0) traffic.exchanges = traffic.messages = traffic.bytes = traffic.agreements = 0;
+        if (ranks.rank() == 0)
+            for (auto* number : {&traffic.exchanges, &traffic.messages, &traffic.bytes, &traffic.agreements,
+                                 &traffic.deals, &traffic.bytes_dealt})
+                *number = 0;
         ranks.any(false);
         for (int k = 0; k < steps; ++k) {
             const StepReport report = simulation.step();
@@ -132,40 +140,52 @@ void print_row(const Case& now, const Scene& scene, const State& start, int coun
     const auto ratio = [](double a, double b) { return b > 0.0 ? a / b : 0.0; };
     const auto number = [](std::uint64_t a) { return static_cast<double>(a); };
     const double rank_sweeps = number(sweeps) * count;
-    fmt::print("| {} | {} | {} | {:.2f} | {:.2f} | {:.3f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.0f} |\n", now.name,
-               count, now.rods / static_cast<std::uint64_t>(count), ratio(number(near), number(owned)),
-               ratio(number(ghosts), number(owned)), ratio(number(contacts_of_ranks), number(contacts)),
-               number(sweeps) / steps, ratio(number(traffic.exchanges), rank_sweeps),
-               ratio(number(traffic.messages), rank_sweeps), ratio(number(traffic.bytes), 1024.0 * rank_sweeps),
-               ratio(number(traffic.agreements), number(steps * static_cast<std::uint64_t>(count))));
+    const double rank_steps = number(steps * static_cast<std::uint64_t>(count));
+    fmt::print(
+        "| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.3f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.0f} | {:.0f} | {:.1f} "
+        "|\n",
+        now.name, count, now.rods / static_cast<std::uint64_t>(count), colours_per_exchange,
+        ratio(number(near), number(owned)), ratio(number(ghosts), number(owned)),
+        ratio(number(contacts_of_ranks), number(contacts)), number(sweeps) / steps,
+        ratio(number(traffic.exchanges), rank_sweeps), ratio(number(traffic.messages), rank_sweeps),
+        ratio(number(traffic.bytes), 1024.0 * rank_sweeps), number(traffic.agreements) / rank_steps,
+        number(traffic.deals) / rank_steps, number(traffic.bytes_dealt) / (1024.0 * rank_steps));
     std::fflush(stdout);
 }
 
 void print_heads() {
     fmt::print(
-        "| state | ranks | rods a rank | near / own | ghosts / own | contacts worked out | sweeps a step | exchanges a "
-        "sweep | messages | KiB | agreements a step |\n");
-    fmt::print("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
+        "| state | ranks | rods a rank | colours an exchange | near / own | ghosts / own | contacts worked out | "
+        "sweeps a step | exchanges a "
+        "sweep | messages | KiB | agreements a step | deals a step | KiB dealt |\n");
+    fmt::print("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
 }
 
-void print_rows(const Case& now, std::initializer_list<int> rank_counts) {
+void print_rows(const Case& now, std::initializer_list<int> rank_counts,
+                std::initializer_list<std::size_t> colours_per_exchange = {1}) {
     const Scene scene = scene_of(now);
     const Box box(box_edges(scene), box_periodic(scene));
     const State start = {box, make_start(scene, box)};
-    for (const int count : rank_counts) print_row(now, scene, start, count);
+    for (const int count : rank_counts)
+        for (const std::size_t colours : colours_per_exchange) print_row(now, scene, start, count, colours);
 }
 
 }  // namespace
 
-/// Without a word: the same rods on more and more ranks. With "weak": as many rods a rank, however many.
+/// Without a word: the same rods on more and more ranks. With "weak": as many rods a rank, however many. With
+/// "exchanges": on 8 ranks, which exchange velocities more and more seldom.
 int main(int count, char** words) {
     parallel::set_thread_count(1);
     print_heads();
-    const bool weak = count > 1 && std::string_view(words[1]) == "weak";
+    const std::string_view word = count > 1 ? words[1] : "";
     const std::array<Case, 3> common{{{"phi 0.1", 8000, 5.0, 0.1},
                                       {"phi 0.4", 8000, 5.0, 0.4},
                                       {"parallel rods, phi 0.55", 8000, 5.0, 0.55, StartKind::lattice}}};
-    if (!weak) {
+    if (word == "exchanges") {
+        for (const Case& now : common) print_rows(now, {8}, {1, 2, 4, 64});
+        return 0;
+    }
+    if (word != "weak") {
         for (const Case& now : common) print_rows(now, {2, 4, 8});
         print_rows({"spheres, phi 0.45", 8000, 0.0, 0.45}, {2, 4, 8});
         print_rows({"L/D 20, phi 0.1", 4000, 20.0, 0.1}, {2, 4, 8});

@@ -23,17 +23,20 @@ using namespace jostle;
 namespace {
 
 const char* const usage =
-    "usage: benchmark_step [--state NAME]... [--count N]... [--run FOLDER]... [--threads T]... [--steps S]\n"
+    "usage: benchmark_step [--state NAME]... [--count N]... [--run FOLDER]... [--threads T]...\n"
+    "                      [--colours-per-exchange C]... [--steps S]\n"
     "Measures every combination; without --state all states, without --count 2000 and 20000, without --threads 1.\n"
     "--run: goes on from the checkpoint of that run, and writes nothing there; without --state no other is measured.\n"
     "Times are means over the steps; median_step_ns is the median. --steps: 0 (default) as many as take about a "
     "second, at least 16; 16 of ranks.\n"
-    "Started by mpirun its processes share the bodies; the first one prints its own times.\n";
+    "Started by mpirun its processes share the bodies; the first one prints its own times. They exchange velocities\n"
+    "once in so many colours; without --colours-per-exchange as often as makes steps fastest, which is then printed.\n";
 
 struct Options {
     std::vector<std::string> states, runs;
     std::vector<std::uint64_t> counts;
     std::vector<int> threads;
+    std::vector<std::size_t> colours_per_exchange;
     std::uint64_t steps = 0;
 };
 
@@ -60,6 +63,8 @@ Options read_options(int count, char** words) {
             options.counts.push_back(number_from<std::uint64_t>(value));
         else if (name == "--threads")
             options.threads.push_back(number_from<int>(value));
+        else if (name == "--colours-per-exchange")
+            options.colours_per_exchange.push_back(number_from<std::size_t>(value));
         else if (name == "--steps")
             options.steps = number_from<std::uint64_t>(value);
         else
@@ -69,6 +74,7 @@ Options read_options(int count, char** words) {
         for (const Crowd& crowd : all_crowds()) options.states.push_back(crowd.name);
     if (options.counts.empty()) options.counts = {2000, 20000};
     if (options.threads.empty()) options.threads = {1};
+    if (options.colours_per_exchange.empty()) options.colours_per_exchange = {0};
     return options;
 }
 
@@ -107,20 +113,23 @@ std::unique_ptr<Simulation> of_run(const std::string& folder) {
 }
 
 void measure(const std::string& state, const std::function<std::unique_ptr<Simulation>()>& prepared,
-             const std::vector<int>& threads, std::uint64_t steps, const Ranks& ranks) {
+             const Options& options, const Ranks& ranks) {
     const double bytes_before = resident_bytes();
     parallel::set_thread_count(1);
     const auto simulation = prepared();
     const auto rods = static_cast<double>(simulation->rods().size());  // of cells, those there are at first
     if (!ranks.alone()) simulation->share(ranks);
-    parallel::set_thread_count(*std::max_element(threads.begin(), threads.end()));
+    parallel::set_thread_count(*std::max_element(options.threads.begin(), options.threads.end()));
     double once = 0.0;
     for (int k = 0; k < 20; ++k) once = seconds_of(checked_step(*simulation));
-    for (const int thread_count : threads) {
+    const auto ways = options.threads.size() * options.colours_per_exchange.size();
+    for (std::size_t way = 0; way < ways; ++way) {
+        const int thread_count = options.threads[way / options.colours_per_exchange.size()];
         parallel::set_thread_count(thread_count);
+        simulation->exchange_once_in(options.colours_per_exchange[way % options.colours_per_exchange.size()]);
         const std::uint64_t by_default =  // of ranks a fixed number, for all have to make as many
             ranks.alone() ? std::clamp<std::uint64_t>(static_cast<std::uint64_t>(1.0 / once), 16, 2000) : 16;
-        const std::uint64_t wanted = steps > 0 ? steps : by_default;
+        const std::uint64_t wanted = options.steps > 0 ? options.steps : by_default;
         std::vector<StepReport> reports;
         const double waited_before = ranks.seconds_waited();
         const std::clock_t processors_before = std::clock();
@@ -145,7 +154,8 @@ void measure(const std::string& state, const std::function<std::unique_ptr<Simul
         double mean = 0.0;
         for (double& value : phase) mean += (value *= 1e9 / (total * rods));
         if (ranks.rank() > 0) continue;
-        fmt::print("{},{},{},{},{}", state, rods, ranks.count(), thread_count, wanted);
+        fmt::print("{},{},{},{},{},{}", state, rods, ranks.count(), thread_count, simulation->colours_per_exchange(),
+                   wanted);
         for (const double value : phase) fmt::print(",{:.1f}", value);
         fmt::print(",{:.1f},{:.1f},{:.4f},{:.4f},{:.1f},{:.2f},", mean, 1e9 * median(whole) / rods,
                    contacts / (total * rods), active / (total * rods), iterations / total, solves / total);
@@ -164,7 +174,7 @@ int main(int count, char** words) try {
         launch_in_environment().is_of_several() ? std::optional<LaunchedRanks>(std::in_place) : std::nullopt;
     const Ranks ranks = launched ? launched->ranks() : Ranks();
     if (ranks.rank() == 0) {
-        fmt::print("state,bodies,ranks,threads,steps");
+        fmt::print("state,bodies,ranks,threads,colours_per_exchange,steps");
         for (const char* phase : step_phase_names) fmt::print(",{}_ns", phase);
         fmt::print(
             ",step_ns,median_step_ns,contacts_per_body,active_per_body,iterations,solves,bytes_per_body,waiting,"
@@ -173,10 +183,10 @@ int main(int count, char** words) try {
     for (const std::string& state : options.states)
         for (const std::uint64_t bodies : options.counts)
             measure(
-                state, [&] { return settled(crowd_named(state), bodies); }, options.threads, options.steps, ranks);
+                state, [&] { return settled(crowd_named(state), bodies); }, options, ranks);
     for (const std::string& run : options.runs)
         measure(
-            run, [&] { return of_run(run); }, options.threads, options.steps, ranks);
+            run, [&] { return of_run(run); }, options, ranks);
     return 0;
 } catch (const std::exception& error) {
     fmt::print(stderr, "benchmark_step: {}\n{}", error.what(), usage);

@@ -20,24 +20,25 @@ needs_mpi = pytest.mark.skipif(not MPIRUN, reason="MPI was not found when this w
 @needs_mpi
 @pytest.mark.parametrize("name", SCENES)
 def test_files_are_those_of_a_run_alone(tmp_path, name):
-    """The first scene on several numbers of ranks and threads, the others on one of them; with JOSTLE_ALL_RANKS=1 in the
-    environment all scenes on all numbers, which takes a quarter of an hour."""
+    """The first scene on several numbers of ranks, threads and colours between two exchanges, the others on one of them; with
+    JOSTLE_ALL_RANKS=1 in the environment all scenes on all numbers, which takes half an hour."""
     write_scene(tmp_path / "alone", SCENES[name])
     reference = finish(tmp_path / "alone")
-    some = [(1, 1), (2, 1), (2, 2), (3, 2), (4, 1)]
+    some = [(1, 1, 1), (2, 1, 2), (2, 2, 64), (3, 2, 1), (4, 1, 3)]
     place = list(SCENES).index(name)
     numbers = some if name == "dense" else [some[1 + place % 4]]
     if os.environ.get("JOSTLE_ALL_RANKS"):
-        numbers = [(ranks, threads) for ranks in (1, 2, 3, 4, 8) for threads in (1, 2)]
-    for ranks, threads in numbers:
-        folder = tmp_path / f"{ranks}_{threads}"
+        numbers = [(ranks, threads, colours) for ranks in (1, 2, 3, 4, 8) for threads in (1, 2) for colours in (1, 3, 64)]
+    for ranks, threads, colours in numbers:
+        folder = tmp_path / f"{ranks}_{threads}_{colours}"
         write_scene(folder, SCENES[name])
-        result = on_ranks(folder, ranks, threads=threads)
+        result = on_ranks(folder, ranks, "--colours-per-exchange", str(colours), threads=threads)
         assert result.returncode == DONE, result.stderr
         require_same_files(folder / "run", reference)
         session = json.loads((folder / "run/run.json").read_text())["sessions"][-1]
         assert (session["ranks"], session["threads"]) == (ranks, threads)
         assert ("hosts" in session) == (ranks > 1)
+        assert session.get("colours_per_exchange") == (colours if ranks > 1 else None)
         assert result.stdout.count("files in run") == 1
 
 

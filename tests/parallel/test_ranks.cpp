@@ -8,6 +8,7 @@
 #include <mutex>
 #include <vector>
 
+#include "jostle/contact_problem/previous_forces.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/math/random.hpp"
 #include "jostle/parallel/parallel_for.hpp"
@@ -16,6 +17,7 @@
 #include "jostle/setup/assemble.hpp"
 #include "jostle/setup/start.hpp"
 #include "support/first_rank.hpp"
+#include "support/slow_link.hpp"
 
 using namespace jostle;
 
@@ -25,10 +27,12 @@ namespace {
 struct Trace {
     Rods rods;
     std::vector<double> numbers;
-    std::size_t arrived = 0;  ///< rods that have changed their rank
+    std::size_t arrived = 0;           ///< rods that have changed their rank
+    std::vector<std::size_t> pushing;  ///< contacts, step by step
     std::vector<std::size_t> owned, near, ghosts;
 
     void add(const StepReport& report) {
+        pushing.push_back(report.active_contacts);
         for (const Mat3& tensor : {report.collision_virial, report.spring_virial, report.torque_virial,
                                    report.centre_of_mass_virial, report.centre_line_virial})
             for (int k = 0; k < 9; ++k) numbers.push_back(tensor(k / 3, k % 3));
@@ -252,6 +256,24 @@ TEST_CASE("steps that begin from the forces of the last one, which rods take alo
     check_ranks(scene, start, 12, {2, 5});
 }
 
+TEST_CASE("a crowd large enough for momentum") {
+    if (is_slow) return;
+    Scene scene = crowd(12000, 2.0, 0.56);
+    scene.rods.start = StartKind::aligned;
+    scene.motion.brownian = false;
+    scene.growth.rate = 1.0;
+    scene.growth.division_length = 3.5;
+    scene.solver.warm_start = WarmStarts::always;
+    scene.solver.tolerance = 1e-3;
+    scene.time.rms_step.reset();
+    scene.time.step = 0.01;
+    const State start = start_of(scene);
+    constexpr int steps = 8;
+    const Trace alone = trace_of(scene, start, steps, no_ranks);
+    check_same(trace_of(scene, start, steps, 2, 0, 3), alone);
+    CHECK(is_crowd(alone.pushing[steps - 2]));  // what the last step begins with
+}
+
 TEST_CASE("springs between rods however far apart, of swimmers that turn round") {
     Scene scene = crowd(200, 3.0, 0.15);
     scene.springs.file = "none";  // they are given
@@ -328,6 +350,24 @@ TEST_CASE("rods that overlap far at the start: forces take them beyond the neigh
     start.box = Box(0.75 * start.box.edges(), start.box.periodic());
     for (Vec3& centre : start.rods.centre) centre *= 0.75;
     check_ranks(scene, start, 4, {2, 5});
+}
+
+TEST_CASE("ranks whose messages take long exchange velocities more seldom than before each colour") {
+    const Scene scene = crowd(200, 3.0, 0.3);
+    const State start = start_of(scene);
+    const auto chosen = test::result_of_first_rank(2, [&](const Ranks& ranks) {
+        test::SlowLink link(ranks, std::chrono::milliseconds(1));
+        Simulation simulation = assemble(scene, start);
+        simulation.share(Ranks(link));
+        std::vector<std::size_t> colours;
+        for (int k = 0; k < 12; ++k) {
+            simulation.step();
+            colours.push_back(simulation.colours_per_exchange());
+        }
+        return colours;
+    });
+    CHECK(chosen.front() == 1);
+    CHECK(chosen.back() > 1);
 }
 
 TEST_CASE("what is not ready for several ranks is refused") {

@@ -184,12 +184,12 @@ double BlockGaussSeidel<Real>::sweep(double omega, SweepOver over) {
     double largest = 0.0;
     const auto pass = [&](auto& group) {
         const std::size_t items = all ? group.items.size() : group.all_active;
-        largest = std::max(
-            largest, parallel_max_of_blocks(group.active.size(), items, [&](std::size_t number) {
-                const auto block = group.block(number);
-                const std::size_t count = all ? block.size() : group.active[number];
-                return sweep_over(block.first(count), group.block_of(group.visits, number), by, local_rods());
-            }));
+        largest =
+            std::max(largest, parallel_max_of_blocks(group.active.size(), items, [&](std::size_t number) {
+                         const auto block = group.block(number);
+                         const std::size_t count = all ? block.size() : group.active[number];
+                         return sweep_over(block.first(count), group.block_of(group.visits, number), by, local_rods());
+                     }));
     };
     for (Colour& colour : colours_) {
         for_contacts(colour, pass, pass);

@@ -87,9 +87,9 @@ private:
     const std::vector<double>& start_;
     double activation_threshold_, still_;
     std::size_t colours_per_exchange_;
-    std::size_t local_count_ = 0;                         ///< n
-    std::vector<MobileRod> borrowed_rods_;                ///< (m >= n) local rods and those of borrowed contacts; or none
-    std::vector<SpatialVector<Real>> velocities_;         ///< (n or m) V, kept up to date
+    std::size_t local_count_ = 0;                  ///< n
+    std::vector<MobileRod> borrowed_rods_;         ///< (m >= n) local rods and those of borrowed contacts; or none
+    std::vector<SpatialVector<Real>> velocities_;  ///< (n or m) V, kept up to date
     std::vector<SpatialVector<Real>> former_velocities_;  ///< (n or m) V of the forces before the last `sweep_on`
     double plane_velocity_ = 0.0;                         ///< of the plane that contacts push, kept up to date
     std::uint32_t sweeps_ = 0;                            ///< so far; numbers them

@@ -233,7 +233,8 @@ public:
             for (const auto& loan : taken_.pairs)
                 if (loan.is_active == is_active) append(loan, colours[loan.colour].borrowed.pairs);
         }
-        for (ColourContacts<Real>& colour : colours) colour.borrowed.for_groups([](auto& group) { note_blocks(group); });
+        for (ColourContacts<Real>& colour : colours)
+            colour.borrowed.for_groups([](auto& group) { note_blocks(group); });
     }
 
     std::vector<std::vector<Request>> take_requests() {
@@ -292,8 +293,8 @@ private:
     struct Foreign {
         RodName name;
         std::uint32_t local;
-        std::uint64_t phases = 0;          ///< a bit for each in which its velocity is needed
-        std::uint64_t colours = 0;         ///< a bit for each of which a pair with it as j has been taken
+        std::uint64_t phases = 0;               ///< a bit for each in which its velocity is needed
+        std::uint64_t colours = 0;              ///< a bit for each of which a pair with it as j has been taken
         std::vector<std::uint32_t> asked = {};  ///< (phases) the first colour that has not been asked for
     };
 
