@@ -86,7 +86,7 @@ ExitCode start_run(const RunOptions& options, const RunScene& scene, std::string
     StartWatch watch(options);
     Beginning beginning = beginning_of(
         scene.scene, scene.path, [&](const Annealing& now) { watch.see(now); },
-        [&](const Scene&, const Box& box, const std::optional<Rods>& from_file, const AnnealingWatch& see) {
+        [&](const Box& box, const std::optional<Rods>& from_file, const AnnealingWatch& see) {
             return together.make_start(scene, box, from_file, see);
         });
     const nlohmann::ordered_json start = start_entry(scene.scene, beginning);

@@ -108,6 +108,8 @@ SideBlocks RodPairFlow::sums(const RodPair& pair, const AxialStresslets& stressl
     for (std::size_t c = 0; c < line_j.place.size(); ++c) {
         const FourVectors to_blob(pair.apart + line_j.place[c] * pair.axis[1]);
         const Four force_weight = four(line_j.force_weight[c]), moment_weight = four(line_j.moment_weight[c]);
+        AxialBlob blob_j;
+        if constexpr (with_axial_flow) blob_j = axial_blob(stresslets, pair.row[1], line_j, c);
         FourMatrices on_centre, on_moment;  // of i, from blob c of j
         for (const FourBlobs& blobs : fours_[pair.line[0]]) {
             const FourVectors r = to_blob - blobs.place * axis_i;
@@ -123,7 +125,6 @@ SideBlocks RodPairFlow::sums(const RodPair& pair, const AxialStresslets& stressl
             on_moment.add(blobs.moment_weight, matrices);
             if constexpr (with_axial_flow) {
                 // r grows with the place of blob c, and falls with those of the blobs of i.
-                const AxialBlob blob_j = axial_blob(stresslets, pair.row[1], line_j, c);
                 const AxialParts of_j(flow, dot(r, axis_j), four(blob_j.force), four(blob_j.dipole));
                 centre_i.add(blobs.force_weight, of_j, r);
                 moment_i.add(blobs.moment_weight, of_j, r);

@@ -215,20 +215,16 @@ Beginning beginning_from(const Scene& scene, const std::filesystem::path& scene_
     require_countable_steps(scene, step);
     require_short_step(step_limits(scene, *model, box, rods, springs), step);
     make_field(scene, box);  // for what it refuses
-    beginning.state.rods = make(scene, box, from_file, [&](const Annealing& now) {
+    const AnnealingWatch see = [&](const Annealing& now) {
         beginning.annealing = now;
         if (watch) watch(now);
-    });
+    };
+    beginning.state.rods = make ? make(box, from_file, see) : make_start(scene, box, from_file, see);
     if (!held) hold_nearest_images(springs, beginning.state.rods, box);
     return beginning;
 }
 
 }  // namespace
-
-Rods make_start_alone(const Scene& scene, const Box& box, const std::optional<Rods>& from_file,
-                      const AnnealingWatch& watch) {
-    return make_start(scene, box, from_file, watch);
-}
 
 Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_path, const AnnealingWatch& watch,
                        const StartMaker& make) {
@@ -239,7 +235,7 @@ Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_pa
 Beginning beginning_of(const Scene& scene, Rods rods) {
     if (!rods.speed.empty()) require_swimming(scene, "what is given");
     require_fit(scene, rods, "what is given");
-    return beginning_from(scene, {}, GivenRods{std::move(rods), {}}, {}, make_start_alone);
+    return beginning_from(scene, {}, GivenRods{std::move(rods), {}}, {}, {});
 }
 
 }  // namespace jostle

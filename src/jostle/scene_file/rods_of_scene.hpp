@@ -61,17 +61,13 @@ auto in_scene_file(const std::filesystem::path& scene_path, Call&& call) {
     }
 }
 
-/// Makes the rods of a start, as `make_start` does.
-using StartMaker =
-    std::function<Rods(const Scene&, const Box&, const std::optional<Rods>& from_file, const AnnealingWatch&)>;
-/// By this process alone.
-Rods make_start_alone(const Scene& scene, const Box& box, const std::optional<Rods>& from_file,
-                      const AnnealingWatch& watch);
+/// Makes the rods of the scene's start, as `make_start` does.
+using StartMaker = std::function<Rods(const Box&, const std::optional<Rods>& from_file, const AnnealingWatch&)>;
 
-/// Makes the start of a scene; `watch` sees how it is annealed. Errors: InputError where the rods do not fit, or move
-/// too fast for the time step.
+/// Makes the start of a scene; `watch` sees how it is annealed. Without `make` this process makes it alone. Errors:
+/// InputError where the rods do not fit, or move too fast for the time step.
 Beginning beginning_of(const Scene& scene, const std::filesystem::path& scene_path, const AnnealingWatch& watch = {},
-                       const StartMaker& make = make_start_alone);
+                       const StartMaker& make = {});
 
 /// The same with rods that the caller has, of ids 0, 1, 2, ..., in the place of those that the scene would make; the
 /// scene has start = "run". Errors: InputError where they do not fit the scene.
