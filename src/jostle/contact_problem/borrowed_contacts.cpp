@@ -18,7 +18,7 @@ struct RodName {
     std::uint32_t local = no_local_index;
 };
 
-/// Pairs of a rod of these colours are asked for, or its velocity where the first of them begins.
+/// Asks for the pairs of a rod of the colours [first, end), or, of messages, for its velocity before colour `first`.
 struct Request {
     RodName rod;
     std::uint32_t first = 0, end = 0;
@@ -44,7 +44,7 @@ struct Loans {
     auto& of(const CoupledBlock&) { return pairs; }
 };
 
-/// A number of the first of an item's contacts.
+/// The number of the first contact.
 template <class Real>
 std::uint32_t first_contact(const ScalarBlock<Real>& contact) {
     return contact.number;
@@ -185,7 +185,8 @@ public:
           next_local_(static_cast<std::uint32_t>(local_rods)),
           requests_(static_cast<std::size_t>(domain.ranks().count())) {}
 
-    /// A pair of this colour has the rod, which is at this place here if it is at any.
+    /// Notes that a pair of this colour has the rod, and asks for what its velocity depends on. `local`: where the rod
+    /// is here, if it is known already. Returns where it is.
     std::uint32_t need(const RodName& name, std::uint32_t colour, const MobileRod& rod,
                        std::uint32_t local = no_local_index) {
         const auto [found, is_new] = numbers_.try_emplace(name.id, rods_.size());
