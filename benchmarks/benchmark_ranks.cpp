@@ -11,6 +11,7 @@
 #include <memory>
 #include <string_view>
 
+#include "jostle/parallel/forwarding_link.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/parallel/thread_ranks.hpp"
 #include "jostle/scene/scene_box.hpp"
@@ -26,67 +27,47 @@ struct Traffic {
     std::atomic<std::uint64_t> exchanges = 0, messages = 0, bytes = 0, agreements = 0, deals = 0, bytes_dealt = 0;
 };
 
-class CountedExchange final : public Exchange {
+class CountedExchange final : public ForwardingExchange {
 public:
     CountedExchange(std::unique_ptr<Exchange> exchange, Traffic& traffic)
-        : Exchange({exchange->peers().begin(), exchange->peers().end()}),
-          exchange_(std::move(exchange)),
-          traffic_(traffic) {}
+        : ForwardingExchange(std::move(exchange)), traffic_(traffic) {}
 
     void begin() override {
         ++traffic_.exchanges;
-        for (std::size_t p = 0; p < peers_.size(); ++p) {
-            traffic_.messages += out_[p].empty() ? 0 : 1;
-            traffic_.bytes += out_[p].size();
-            std::copy(out_[p].begin(), out_[p].end(), exchange_->out(p).begin());
+        for (const auto& message : out_) {
+            traffic_.messages += message.empty() ? 0 : 1;
+            traffic_.bytes += message.size();
         }
-        exchange_->begin();
-    }
-    void wait() override {
-        exchange_->end();
-        for (std::size_t p = 0; p < peers_.size(); ++p) {
-            const auto arrived = exchange_->in(p);
-            std::copy(arrived.begin(), arrived.end(), in_[p].begin());
-        }
+        ForwardingExchange::begin();
     }
 
 private:
-    std::unique_ptr<Exchange> exchange_;
     Traffic& traffic_;
 };
 
-/// Does what another link does, and counts it.
-class CountedLink final : public RankLink {
+/// Counts what goes through it.
+class CountedLink final : public ForwardingLink {
 public:
-    CountedLink(const Ranks& ranks, Traffic& traffic) : ranks_(ranks), traffic_(traffic) {}
+    CountedLink(const Ranks& ranks, Traffic& traffic) : ForwardingLink(ranks), traffic_(traffic) {}
 
-    int rank() const override { return ranks_.rank(); }
-    int count() const override { return ranks_.count(); }
     void largest(std::span<double> values) override {
         ++traffic_.agreements;
-        ranks_.largest(values);
+        ForwardingLink::largest(values);
     }
     void add_up(std::span<std::int64_t> numbers) override {
         ++traffic_.agreements;
-        ranks_.add_up(numbers);
+        ForwardingLink::add_up(numbers);
     }
     std::vector<Bytes> deal(const std::vector<Bytes>& to) override {
         ++traffic_.deals;
         for (const Bytes& bytes : to) traffic_.bytes_dealt += bytes.size();
-        return ranks_.deal(to);
-    }
-    Bytes of_first(Bytes message) override {
-        const std::string_view text(reinterpret_cast<const char*>(message.data()), message.size());
-        const std::string told = ranks_.of_first(text);
-        const auto* const begin = reinterpret_cast<const std::byte*>(told.data());
-        return {begin, begin + told.size()};
+        return ForwardingLink::deal(to);
     }
     std::unique_ptr<Exchange> exchange(std::vector<Exchange::Peer> peers) override {
-        return std::make_unique<CountedExchange>(ranks_.exchange(std::move(peers)), traffic_);
+        return std::make_unique<CountedExchange>(ForwardingLink::exchange(std::move(peers)), traffic_);
     }
 
 private:
-    const Ranks& ranks_;
     Traffic& traffic_;
 };
 
