@@ -113,7 +113,10 @@ Scene crowd(std::uint64_t count, double length, double volume_fraction) {
     return scene;
 }
 
-State start_of(const Scene& scene) {
+/// Sanitizers are to see steps on ranks, not random starts, which take most of their time.
+State start_of(Scene scene) {
+    if (is_slow && scene.rods.count > 100 && scene.rods.start == StartKind::random)
+        scene.rods.start = StartKind::aligned;
     parallel::set_thread_count(1);
     const Box box(box_edges(scene), box_periodic(scene));
     return {box, make_start(scene, box)};
@@ -126,7 +129,7 @@ void check_ranks(const Scene& scene, const State& start, int steps, std::initial
         if (is_slow && count > 3) continue;
         CAPTURE(count);
         for (const int colours_per_exchange : {1, count, 64}) {
-            if (is_slow && (count > 2 || colours_per_exchange != 2)) continue;
+            if (is_slow && colours_per_exchange != count) continue;
             CAPTURE(colours_per_exchange);
             check_same(trace_of(scene, start, steps, count, 0, static_cast<std::size_t>(colours_per_exchange)), alone);
         }
@@ -354,7 +357,6 @@ TEST_CASE("rods that overlap far at the start: forces take them beyond the neigh
 }
 
 TEST_CASE("ranks whose messages take long exchange velocities more seldom than before each colour") {
-    if (is_slow) return;
     const Scene scene = crowd(200, 3.0, 0.3);
     const State start = start_of(scene);
     const auto chosen = test::result_of_first_rank(2, [&](const Ranks& ranks) {
