@@ -3,15 +3,13 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdio>
 #include <initializer_list>
-#include <memory>
 #include <string_view>
 
-#include "jostle/parallel/forwarding_link.hpp"
+#include "jostle/parallel/counted_link.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/parallel/thread_ranks.hpp"
 #include "jostle/scene/scene_box.hpp"
@@ -21,55 +19,6 @@
 using namespace jostle;
 
 namespace {
-
-/// Of all ranks together.
-struct Traffic {
-    std::atomic<std::uint64_t> exchanges = 0, messages = 0, bytes = 0, agreements = 0, deals = 0, bytes_dealt = 0;
-};
-
-class CountedExchange final : public ForwardingExchange {
-public:
-    CountedExchange(std::unique_ptr<Exchange> exchange, Traffic& traffic)
-        : ForwardingExchange(std::move(exchange)), traffic_(traffic) {}
-
-    void begin() override {
-        ++traffic_.exchanges;
-        for (const auto& message : out_) {
-            traffic_.messages += message.empty() ? 0 : 1;
-            traffic_.bytes += message.size();
-        }
-        ForwardingExchange::begin();
-    }
-
-private:
-    Traffic& traffic_;
-};
-
-/// Counts what goes through it.
-class CountedLink final : public ForwardingLink {
-public:
-    CountedLink(const Ranks& ranks, Traffic& traffic) : ForwardingLink(ranks), traffic_(traffic) {}
-
-    void largest(std::span<double> values) override {
-        ++traffic_.agreements;
-        ForwardingLink::largest(values);
-    }
-    void add_up(std::span<std::int64_t> numbers) override {
-        ++traffic_.agreements;
-        ForwardingLink::add_up(numbers);
-    }
-    std::vector<Bytes> deal(const std::vector<Bytes>& to) override {
-        ++traffic_.deals;
-        for (const Bytes& bytes : to) traffic_.bytes_dealt += bytes.size();
-        return ForwardingLink::deal(to);
-    }
-    std::unique_ptr<Exchange> exchange(std::vector<Exchange::Peer> peers) override {
-        return std::make_unique<CountedExchange>(ForwardingLink::exchange(std::move(peers)), traffic_);
-    }
-
-private:
-    Traffic& traffic_;
-};
 
 struct Case {
     const char* name;

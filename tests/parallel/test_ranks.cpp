@@ -11,13 +11,13 @@
 #include "jostle/contact_problem/previous_forces.hpp"
 #include "jostle/error/input_error.hpp"
 #include "jostle/math/random.hpp"
+#include "jostle/parallel/counted_link.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/rods/space_filling_order.hpp"
 #include "jostle/scene/scene_box.hpp"
 #include "jostle/setup/assemble.hpp"
 #include "jostle/setup/start.hpp"
 #include "support/first_rank.hpp"
-#include "support/slow_link.hpp"
 
 using namespace jostle;
 
@@ -356,22 +356,38 @@ TEST_CASE("rods that overlap far at the start: forces take them beyond the neigh
     check_ranks(scene, start, 4, {2, 5});
 }
 
-TEST_CASE("ranks whose messages take long exchange velocities more seldom than before each colour") {
+TEST_CASE("ranks that exchange velocities more seldom wait less often") {
+    const Scene scene = crowd(200, 3.0, 0.3);
+    const State start = start_of(scene);
+    const auto exchanges = [&](std::size_t colours) {
+        Traffic traffic;
+        run_as_ranks(2, [&](const Ranks& ranks) {
+            CountedLink link(ranks, traffic);
+            Simulation simulation = assemble(scene, start);
+            simulation.share(Ranks(link));
+            simulation.exchange_once_in(colours);
+            for (int k = 0; k < 5; ++k) simulation.step();
+        });
+        return traffic.exchanges.load();
+    };
+    CHECK(exchanges(2) < exchanges(1));
+    CHECK(2 * exchanges(64) < exchanges(1));
+}
+
+TEST_CASE("ranks that are told nothing exchange velocities before each colour, and try now and then to do so less") {
     const Scene scene = crowd(200, 3.0, 0.3);
     const State start = start_of(scene);
     const auto chosen = test::result_of_first_rank(2, [&](const Ranks& ranks) {
-        test::SlowLink link(ranks, std::chrono::milliseconds(1));
         Simulation simulation = assemble(scene, start);
-        simulation.share(Ranks(link));
+        simulation.share(ranks);
         std::vector<std::size_t> colours;
-        for (int k = 0; k < 12; ++k) {
+        for (int k = 0; k < 6; ++k) {
             simulation.step();
             colours.push_back(simulation.colours_per_exchange());
         }
         return colours;
     });
-    CHECK(chosen.front() == 1);
-    CHECK(chosen.back() > 1);
+    CHECK(chosen == std::vector<std::size_t>{1, 1, 1, 1, 1, 2});
 }
 
 TEST_CASE("what is not ready for several ranks is refused") {
