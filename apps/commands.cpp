@@ -75,6 +75,10 @@ Command add_run_command(CLI::App& app, int argc, char** argv) {
            "ranks (of mpirun, srun) exchange velocities once in so many colours of a sweep, on which the result "
            "does not depend; default: as often as makes steps fastest")
         ->check(CLI::Range(1, 64));
+    run->add_option("--ranks-write-above", options->ranks_write_above,
+                    "where ranks have more rods than this together, every rank writes its part of frames and "
+                    "checkpoints, which have the same bytes; all ranks must see the folder then; default: 1e8")
+        ->check(CLI::Range(0.0, 1e18));
     run->add_flag("--alone", options->alone,
                   "one process makes this run, though a launcher (mpirun, srun) has started several");
     run->add_flag("--spin-waiting", *spin_waiting,

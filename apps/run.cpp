@@ -180,10 +180,15 @@ void Run::write_what_is_due(const Due& due, bool checkpoint_is_overdue) {
     if (due.checkpoint || checkpoint_is_overdue) checkpoint();
 }
 
+RodsInOrder Run::rods_for_files() const {
+    const bool many = static_cast<double>(simulation_.rods_in_all()) > options_.ranks_write_above;
+    return simulation_.rods_in_order(many ? RodsInOrder::TakenBy::all_ranks : RodsInOrder::TakenBy::first_rank);
+}
+
 void Run::append_frame() {
-    const RodsInOrder rods = simulation_.rods_in_order();
     std::vector<Mat3> stress;
-    if (scene_.output.stress_per_rod) stress = stress_of_last_step(simulation_, rods);
+    if (scene_.output.stress_per_rod) stress = stress_of_last_step(simulation_, simulation_.rods_in_order());
+    const RodsInOrder rods = rods_for_files();
     if (is_first())
         files_->append_frame(simulation_, rods, stress);
     else
@@ -193,7 +198,7 @@ void Run::append_frame() {
 void Run::checkpoint() {
     const auto begin = std::chrono::steady_clock::now();
     Checkpoint now = checkpoint_without_rods(simulation_, measurement_.sums(), run_scene_.resolved);
-    const RodsInOrder rods = simulation_.rods_in_order();
+    const RodsInOrder rods = rods_for_files();
     last_checkpoint_ = std::chrono::steady_clock::now();
     if (!is_first()) return send_rods_of_checkpoint(rods);
     files_->write_checkpoint(std::move(now), rods);

@@ -45,6 +45,8 @@ private:
     Decision decide();
     void require_same(const jostle::StepReport& report, const jostle::Due& due);
     void write_what_is_due(const jostle::Due& due, bool checkpoint_is_overdue);
+    /// Their slices go to the first rank, or, of very many rods, to all ranks.
+    jostle::RodsInOrder rods_for_files() const;
     void append_frame();
     void checkpoint();
     void record(const std::string& exit_reason);

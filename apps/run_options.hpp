@@ -12,6 +12,7 @@ struct RunOptions {
     std::string folder;                    ///< --out; empty: the scene's name, in the current folder
     std::optional<long long> threads;      ///< empty: as many as are worth starting (parallel::suit_thread_count)
     std::size_t colours_per_exchange = 0;  ///< Simulation::exchange_once_in
+    double ranks_write_above = 1e8;        ///< every rank writes its part of the files of more rods
     std::optional<double> wall_time;       ///< seconds; stop before it is over
     bool alone = false;                    ///< one process makes the run, whatever has started it
     bool fresh = false;                    ///< move an existing run aside, and start anew

@@ -3,6 +3,7 @@ threads, also when a run stops, is killed, and goes on with another number."""
 
 import json
 import os
+import resource
 import shutil
 import signal
 import subprocess
@@ -21,7 +22,8 @@ needs_mpi = pytest.mark.skipif(not MPIRUN, reason="MPI was not found when this w
 @pytest.mark.parametrize("name", SCENES)
 def test_files_are_those_of_a_run_alone(tmp_path, name):
     """The first scene on several numbers of ranks, threads and colours between two exchanges, the others on one of them; with
-    JOSTLE_ALL_RANKS=1 in the environment all scenes on all numbers, which takes half an hour."""
+    JOSTLE_ALL_RANKS=1 in the environment all scenes on all numbers, which takes half an hour. Where there are several
+    colours, every rank writes its part of frames and checkpoints, else the first rank all of them."""
     write_scene(tmp_path / "alone", SCENES[name])
     reference = finish(tmp_path / "alone")
     some = [(1, 1, 1), (2, 1, 2), (2, 2, 64), (3, 2, 1), (4, 1, 3)]
@@ -32,7 +34,8 @@ def test_files_are_those_of_a_run_alone(tmp_path, name):
     for ranks, threads, colours in numbers:
         folder = tmp_path / f"{ranks}_{threads}_{colours}"
         write_scene(folder, SCENES[name])
-        result = on_ranks(folder, ranks, "--colours-per-exchange", str(colours), threads=threads)
+        result = on_ranks(folder, ranks, "--colours-per-exchange", str(colours), "--ranks-write-above",
+                          "0" if colours > 1 else "1e8", threads=threads)
         assert result.returncode == DONE, result.stderr
         require_same_files(folder / "run", reference)
         session = json.loads((folder / "run/run.json").read_text())["sessions"][-1]
@@ -67,15 +70,15 @@ def test_stopped_and_going_on_with_other_numbers_of_ranks(tmp_path, name):
 
 
 @needs_mpi
-@pytest.mark.parametrize("rank", [0, 2])
-def test_a_rank_that_is_killed(tmp_path, rank):
+@pytest.mark.parametrize("rank, above", [(0, "1e8"), (2, "0")])
+def test_a_rank_that_is_killed(tmp_path, rank, above):
     """kill -9: the launcher ends the others, and the run goes on from its last checkpoint."""
     scene = changed(with_steps(CROWD, 300), output={"checkpoint_every": 25})
     write_scene(tmp_path / "alone", scene)
     reference = finish(tmp_path / "alone")
     folder = tmp_path / "killed"
     write_scene(folder, scene)
-    process = start_on_ranks(folder, 3)
+    process = start_on_ranks(folder, 3, "--ranks-write-above", above)
     wait_until(lambda: rows_of(folder / "run/series.csv") > 8, process)
     os.kill(pid_of_rank(process, rank), signal.SIGKILL)
     process.communicate(timeout=60)
@@ -121,6 +124,29 @@ def test_what_is_refused_leaves_no_trace(tmp_path, changes, key):
     lines = lines_of_jostle(result.stderr)
     assert len(lines) == 1 and key in lines[0], result.stderr
     assert not (tmp_path / "run").exists()
+
+
+@needs_mpi
+@pytest.mark.parametrize("above", ["1e8", "0"])
+def test_a_full_disk_ends_all(tmp_path, above):
+    """A limit of what a file may have stands for it. Nothing that was sound is lost, and the run goes on where there is room."""
+    scene = changed(with_steps(CROWD, 300), output={"trajectory_every": 2, "checkpoint_every": 25})
+    write_scene(tmp_path / "alone", scene)
+    reference = finish(tmp_path / "alone")
+    folder = tmp_path / "full"
+    write_scene(folder, scene)
+    process = start_on_ranks(folder, 3, "--ranks-write-above", above)
+    wait_until(lambda: rows_of(folder / "run/series.csv") > 8, process)
+    limit = (folder / "run/trajectory.journal").stat().st_size + 9000  # a frame has 8400 bytes
+    for rank in range(3):
+        resource.prlimit(pid_of_rank(process, rank), resource.RLIMIT_FSIZE, (limit, limit))
+    _, stderr = process.communicate(timeout=60)
+    assert process.returncode == DISK, stderr
+    lines = lines_of_jostle(stderr)
+    assert 1 <= len(lines) <= 3 and all("trajectory.journal: cannot write" in line for line in lines), stderr
+    assert 0 <= checkpoint_step(folder / "run") < 300
+    assert on_ranks(folder, 2, "--ranks-write-above", above).returncode == DONE
+    require_same_files(folder / "run", reference)
 
 
 @needs_mpi

@@ -151,6 +151,10 @@ void ReadFile::read_up_to(std::uint64_t count, std::string& bytes) {
     bytes.resize(filled);
 }
 
+void ReadFile::go_to(std::uint64_t place) {
+    if (::lseek(descriptor_, static_cast<off_t>(place), SEEK_SET) < 0) throw DiskError(path_, "read", errno);
+}
+
 bool write_to(int descriptor, std::string_view bytes) {
     while (!bytes.empty()) {
         const ssize_t written = uninterrupted([&] { return ::write(descriptor, bytes.data(), bytes.size()); });

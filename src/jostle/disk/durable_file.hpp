@@ -66,6 +66,8 @@ public:
 
     /// The next `count` bytes, fewer only at the end of the file, into `bytes`. Errors: DiskError.
     void read_up_to(std::uint64_t count, std::string& bytes);
+    /// What comes next is what the file has from this byte on. Errors: DiskError, as for a pipe.
+    void go_to(std::uint64_t place);
 
     /// Bytes in the file when it was opened.
     std::uint64_t size() const { return size_; }

@@ -22,8 +22,10 @@ namespace jostle {
 /// Arrays stay where they are, for there may be ten million rods: those that are put must outlive the writer.
 class FieldWriter {
 public:
-    /// Takes bytes, one piece after the other.
-    using Sink = std::function<void(std::string_view)>;
+    /// Takes pieces of an array, each with its place (bytes) in it.
+    using Sink = std::function<void(std::uint64_t, std::string_view)>;
+    /// Gives an array to a sink, piece after piece.
+    using Pieces = std::function<void(const Sink&)>;
 
     template <class Value>
     void put(std::string_view name, const Value& value) {
@@ -37,8 +39,9 @@ public:
     }
     template <class Value>
     void put_array(std::string_view name, const std::vector<Value>& values) {
-        const std::string_view bytes = bytes_of(std::span(values));
-        put_pieces(name, bytes.size(), [bytes](const Sink& sink) { sink(bytes); });
+        begin(name, values.size() * sizeof(Value));
+        parts_.back().array = bytes_of(std::span(values));
+        parts_.emplace_back();
     }
     /// An array of one thing that each of the items has: `part(item)`.
     template <class Item, class Part>
@@ -49,8 +52,8 @@ public:
         for (const Item& item : items) parts_.back().copied.put(static_cast<Value>(part(item)));
     }
 
-    /// So many bytes, which `pieces` gives to a sink when all is written.
-    void put_pieces(std::string_view name, std::uint64_t bytes, std::function<void(const Sink&)> pieces) {
+    /// So many bytes, which come in pieces when all is written.
+    void put_pieces(std::string_view name, std::uint64_t bytes, Pieces pieces) {
         begin(name, bytes);
         parts_.back().pieces = std::move(pieces);
         parts_.back().bytes = bytes;
@@ -60,21 +63,35 @@ public:
     /// How many bytes all are together.
     std::uint64_t bytes() const {
         std::uint64_t sum = 0;
-        for (const Part& part : parts_) sum += part.copied.bytes().size() + part.bytes;
+        for (const Part& part : parts_) sum += part.copied.bytes().size() + part.array.size() + part.bytes;
         return sum;
     }
-    void write(const Sink& sink) const {
+    /// Calls write(bytes), one after the other, and write_pieces(how many bytes, pieces) for what comes in pieces.
+    template <class Write, class WritePieces>
+    void write(Write&& write, WritePieces&& write_pieces) const {
         for (const Part& part : parts_) {
-            sink(part.copied.bytes());
-            if (part.pieces) part.pieces(sink);
+            write(std::string_view(part.copied.bytes()));
+            write(part.array);
+            if (part.pieces) write_pieces(part.bytes, part.pieces);
         }
+    }
+    /// All of it as it lies in a file.
+    std::string text() const {
+        std::string all;
+        all.reserve(bytes());
+        const auto append = [&](std::string_view piece) { all += piece; };
+        write(append, [&](std::uint64_t, const Pieces& pieces) {
+            pieces([&](std::uint64_t, std::string_view piece) { append(piece); });
+        });
+        return all;
     }
 
 private:
     struct Part {
         ByteWriter copied;
-        std::function<void(const Sink&)> pieces = {};  ///< after it
-        std::uint64_t bytes = 0;                       ///< of the pieces
+        std::string_view array = {};  ///< after it
+        Pieces pieces = {};           ///< or these
+        std::uint64_t bytes = 0;      ///< of the pieces
     };
 
     void begin(std::string_view name, std::uint64_t bytes) {

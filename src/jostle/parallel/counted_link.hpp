@@ -54,6 +54,8 @@ public:
         return std::make_unique<CountedExchange>(ranks_.exchange(std::move(peers)), traffic_);
     }
 
+    std::unique_ptr<FileOfRanks> open(const std::string& path) override { return ranks_.open(path); }
+
 private:
     class CountedExchange final : public Exchange {
     public:

@@ -3,8 +3,10 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <string>
+#include <system_error>
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/parallel/launched_ranks.hpp"
@@ -65,6 +67,50 @@ private:
     std::vector<MPI_Request> requests_;
 };
 
+/// Does something with a file. MPI tells by its code what is wrong, or no more than that something is: then errno,
+/// which the system has left, does.
+template <class Act>
+void on_file(Act&& act) {
+    errno = 0;
+    const int code = act();
+    if (code == MPI_SUCCESS) return;
+    int error_number = errno != 0 ? errno : EIO;
+    int kind = MPI_ERR_OTHER;
+    MPI_Error_class(code, &kind);
+    if (kind == MPI_ERR_NO_SPACE) error_number = ENOSPC;
+    if (kind == MPI_ERR_QUOTA) error_number = EDQUOT;
+    if (kind == MPI_ERR_ACCESS) error_number = EACCES;
+    if (kind == MPI_ERR_NO_SUCH_FILE) error_number = ENOENT;
+    throw std::system_error(error_number, std::generic_category());
+}
+
+class MpiFile final : public FileOfRanks {
+public:
+    explicit MpiFile(const std::string& path) {
+        on_file([&] { return MPI_File_open(MPI_COMM_WORLD, path.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file_); });
+    }
+
+    void write_at(std::uint64_t place, std::string_view bytes) override {
+        for_each_piece(std::span(bytes), [&](const char* begin, int size) {
+            MPI_Status status;
+            on_file([&] {
+                return MPI_File_write_at(file_, static_cast<MPI_Offset>(place), begin, size, MPI_BYTE, &status);
+            });
+            int written = 0;
+            MPI_Get_count(&status, MPI_BYTE, &written);
+            if (written != size) throw std::system_error(ENOSPC, std::generic_category());
+            place += static_cast<std::uint64_t>(size);
+        });
+    }
+    void finish() override {
+        on_file([&] { return MPI_File_sync(file_); });
+        on_file([&] { return MPI_File_close(&file_); });
+    }
+
+private:
+    MPI_File file_ = MPI_FILE_NULL;
+};
+
 class MpiLink final : public RankLink {
 public:
     MpiLink() {
@@ -123,6 +169,7 @@ public:
     std::unique_ptr<Exchange> exchange(std::vector<Exchange::Peer> peers) override {
         return std::make_unique<MpiExchange>(std::move(peers));
     }
+    std::unique_ptr<FileOfRanks> open(const std::string& path) override { return std::make_unique<MpiFile>(path); }
 
 private:
     int rank_ = 0, count_ = 1;

@@ -65,6 +65,18 @@ private:
     double* waited_ = &own_waiting_;
 };
 
+/// A file that all ranks write to, each at places of its own.
+///
+/// Errors of all that it does, and of opening it: std::system_error with a value of errno.
+class FileOfRanks {
+public:
+    virtual ~FileOfRanks() = default;
+    virtual void write_at(std::uint64_t place, std::string_view bytes) = 0;
+    /// Returns when all is on the disk that all ranks have written; nothing can be written any more. All call it
+    /// together. Without it the file stays open: no rank may wait for one that has met an error.
+    virtual void finish() = 0;
+};
+
 /// How one rank reaches the others. All ranks make the same calls in the same order.
 class RankLink {
 public:
@@ -78,6 +90,7 @@ public:
     virtual std::vector<Bytes> deal(const std::vector<Bytes>& to) = 0;
     virtual Bytes of_first(Bytes message) = 0;
     virtual std::unique_ptr<Exchange> exchange(std::vector<Exchange::Peer> peers) = 0;
+    virtual std::unique_ptr<FileOfRanks> open(const std::string& path) = 0;
 
     double seconds_waited = 0.0;  ///< for other ranks, in all calls but `exchange`
 };
@@ -175,6 +188,9 @@ public:
         exchange->add_waiting_to(link_->seconds_waited);
         return exchange;
     }
+
+    /// A file that is there, by the same path for all. Not for one alone.
+    std::unique_ptr<FileOfRanks> open(const std::string& path) const { return link_->open(path); }
 
 private:
     std::vector<RankLink::Bytes> dealt(const std::vector<RankLink::Bytes>& to) const {

@@ -8,6 +8,7 @@
 #include "jostle/disk/checksum.hpp"
 #include "jostle/disk/durable_file.hpp"
 #include "jostle/run_files/checkpoint_fields.hpp"
+#include "jostle/run_files/written_together.hpp"
 
 namespace jostle {
 namespace {
@@ -51,6 +52,12 @@ std::string_view verified_payload(const std::string& path, std::string_view file
     return file.substr(header_bytes, payload_bytes);
 }
 
+void write(const FieldWriter& fields, WrittenTogether& together) {
+    fields.write([&](std::string_view bytes) { together.write(bytes); },
+                 [&](std::uint64_t bytes, const auto& pieces) { together.write_column(bytes, pieces); });
+    together.finish();
+}
+
 /// What to do about a damaged FOLDER/checkpoint, which depends on the one before.
 std::string way_out(const std::string& path, const std::string& previous) {
     if (!file_exists(previous)) return start_again;
@@ -81,12 +88,9 @@ void write_checkpoint(const std::string& folder, const Checkpoint& checkpoint, c
     try {
         write_synced_file(temporary, [&](AppendFile& file) {
             RunningChecksum sum;
-            const auto write = [&](std::string_view piece) {
-                sum.add(piece);
-                file.write_all(piece);
-            };
-            write(header.bytes());
-            fields.write(write);
+            WrittenTogether together(rods, &file, [&](std::string_view bytes) { sum.add(bytes); });
+            together.write(header.bytes());
+            write(fields, together);
             footer.put(sum.value());
             file.write_all(footer.bytes());
         });
@@ -100,15 +104,12 @@ void write_checkpoint(const std::string& folder, const Checkpoint& checkpoint, c
 }
 
 void send_rods_of_checkpoint(const RodsInOrder& rods) {
-    fields_of({}, rods).write([](std::string_view) {});
+    WrittenTogether together(rods, nullptr, {});
+    write(fields_of({}, rods), together);
 }
 
 std::string packed(const Checkpoint& checkpoint, const RodsInOrder& rods) {
-    const FieldWriter fields = fields_of(checkpoint, rods);
-    std::string bytes;
-    bytes.reserve(fields.bytes());
-    fields.write([&](std::string_view piece) { bytes += piece; });
-    return bytes;
+    return fields_of(checkpoint, rods).text();
 }
 
 Checkpoint unpacked(std::string_view bytes) {

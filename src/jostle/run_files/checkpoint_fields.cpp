@@ -13,9 +13,11 @@ namespace {
 template <class Of>
 void put_column(FieldWriter& writer, std::string_view name, const RodsInOrder& rods, bool have_it, const Of& of) {
     using Value = decltype(of(std::declval<const Rods&>(), std::uint32_t{}));
-    if (!have_it) return writer.put_pieces(name, 0, [](const FieldWriter::Sink&) {});
+    if (!have_it) return writer.put_text(name, "");
     writer.put_pieces(name, rods.size() * sizeof(Value), [&rods, of](const FieldWriter::Sink& sink) {
-        rods.column(of, [&](std::span<const Value> values) { sink(bytes_of(values)); });
+        rods.column(of, [&](std::size_t before, std::span<const Value> values) {
+            sink(before * sizeof(Value), bytes_of(values));
+        });
     });
 }
 

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <span>
 #include <string_view>
+#include <utility>
+
+#include "jostle/run_files/written_together.hpp"
 
 namespace jostle {
 namespace {
@@ -34,10 +37,14 @@ std::array<float, 3> single(const Vec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// What a frame has of rods, one column after the other; write(bytes) is called at the first rank.
-template <class Write>
-void write_rods(const RodsInOrder& rods, Write&& write) {
-    const auto column = [&](auto&& of) { rods.column(of, [&](auto values) { write(bytes_of(values)); }); };
+/// What a frame has of rods, one column after the other.
+void write_rods(const RodsInOrder& rods, WrittenTogether& together) {
+    const auto column = [&](auto&& of) {
+        constexpr std::size_t bytes = sizeof(of(std::declval<const Rods&>(), std::uint32_t{}));
+        together.write_column(rods.size() * bytes, [&](const auto& sink) {
+            rods.column(of, [&](std::size_t before, auto values) { sink(before * bytes, bytes_of(values)); });
+        });
+    };
     column([](const Rods& of, std::uint32_t row) { return of.id[row]; });
     column([](const Rods& of, std::uint32_t row) { return single(of.centre[row]); });
     column([](const Rods& of, std::uint32_t row) { return of.image[row]; });
@@ -146,14 +153,15 @@ void TrajectoryJournal::append(std::uint64_t step, double time, const Box& box, 
     header.put(checksum(header.bytes()));
     const std::uint64_t begin = file_.size();
     RunningChecksum frame;
-    const auto write_part = [&](std::string_view bytes) {
-        frame.add(bytes);
-        write(bytes);
-    };
     try {
-        write_part(header.bytes());
-        write_rods(rods, write_part);
-        write_part(bytes_of(std::span(stress)));
+        WrittenTogether together(rods, &file_, [&](std::string_view bytes) {
+            frame.add(bytes);
+            checksum_.add(bytes);
+        });
+        together.write(header.bytes());
+        write_rods(rods, together);
+        together.write(bytes_of(std::span(stress)));
+        together.finish();
         footer.put(frame.value());
         write(footer.bytes());
     } catch (const DiskError&) {
@@ -163,7 +171,9 @@ void TrajectoryJournal::append(std::uint64_t step, double time, const Box& box, 
 }
 
 void TrajectoryJournal::send_rods(const RodsInOrder& rods) {
-    write_rods(rods, [](std::string_view) {});
+    WrittenTogether together(rods, nullptr, {});
+    write_rods(rods, together);
+    together.finish();
 }
 
 void TrajectoryJournal::write(std::string_view bytes) {

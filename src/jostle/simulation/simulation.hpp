@@ -53,7 +53,9 @@ public:
     /// The state of all ranks but for their rods, its forces in the order of ids, for rank 0.
     State state_without_rods() const;
     /// The rods of all ranks, for a file.
-    RodsInOrder rods_in_order() const { return {state_.rods, domain_}; }
+    RodsInOrder rods_in_order(RodsInOrder::TakenBy taken_by = RodsInOrder::TakenBy::first_rank) const {
+        return {state_.rods, domain_, taken_by};
+    }
     /// Ends what `share` has begun: rank 0 has all rods, and the others none, from here on each on its own. Gives back
     /// the memory that is kept for speed, also of one process.
     void unite();

@@ -7,6 +7,7 @@
 #include <map>
 #include <random>
 #include <set>
+#include <span>
 #include <stdexcept>
 
 #include "jostle/domain/domain.hpp"
@@ -150,11 +151,36 @@ TEST_CASE("the first rank gathers all rods in the order of ids, slice by slice")
         Domain domain(ranks);
         domain.share_out(rods);
         domain.gather(rods, box, 1.0, true);
-        const Rods whole = RodsInOrder(rods, domain, 50).whole();
+        const Rods whole = RodsInOrder(rods, domain, RodsInOrder::TakenBy::first_rank, 50).whole();
         require(whole.size() == (ranks.rank() == 0 ? all.size() : 0), "all are at the first rank, and nowhere else");
         require(std::is_sorted(whole.id.begin(), whole.id.end()), "they are in the order of ids");
         for (std::size_t row = 0; row < whole.size(); ++row)  // whose ids descend
             require(is_same_rod(whole, row, all, all.size() - 1 - row), "a rod has changed");
+    }));
+}
+
+TEST_CASE("all ranks take slices of all rods in the order of ids, in turns") {
+    const Rods all = random_rods(300, {20, 20, 20}, 3.0, 4);
+    CHECK_NOTHROW(run_as_ranks(4, [&](const Ranks& ranks) {
+        Rods rods = all;
+        Domain domain(ranks);
+        domain.share_out(rods);
+        const RodsInOrder in_order(rods, domain, RodsInOrder::TakenBy::all_ranks, 50);
+        std::size_t taken = 0;
+        in_order.column([](const Rods& of, std::uint32_t row) { return of.id[row]; },
+                        [&](std::size_t before, std::span<const std::uint64_t> ids) {
+                            for (std::size_t k = 0; k < ids.size(); ++k)  // ids descend from 1000
+                                require(ids[k] == 1000 - all.size() + 1 + before + k, "a rod is at another place");
+                            taken += ids.size();
+                        });
+        require(taken > 20 && taken < 200, "a rank takes too few rods, or too many");
+        require(ranks.sum(static_cast<std::int64_t>(taken)) == 300, "a rod is taken twice, or by nobody");
+        try {
+            in_order.whole();
+        } catch (const std::logic_error&) {
+            return;
+        }
+        throw std::runtime_error("the first rank does not have them all");
     }));
 }
 
