@@ -90,7 +90,8 @@ public:
     virtual std::vector<Bytes> deal(const std::vector<Bytes>& to) = 0;
     virtual Bytes of_first(Bytes message) = 0;
     virtual std::unique_ptr<Exchange> exchange(std::vector<Exchange::Peer> peers) = 0;
-    virtual std::unique_ptr<FileOfRanks> open(const std::string& path) = 0;
+    /// None where ranks are of one process, which opens files by itself.
+    virtual std::unique_ptr<FileOfRanks> open(const std::string& /*path*/) { return nullptr; }
 
     double seconds_waited = 0.0;  ///< for other ranks, in all calls but `exchange`
 };
@@ -189,7 +190,7 @@ public:
         return exchange;
     }
 
-    /// A file that is there, by the same path for all. Not for one alone.
+    /// A file that is there, by the same path for all; none where ranks are of one process. Not for one alone.
     std::unique_ptr<FileOfRanks> open(const std::string& path) const { return link_->open(path); }
 
 private:

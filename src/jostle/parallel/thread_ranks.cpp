@@ -1,11 +1,7 @@
 #include "jostle/parallel/thread_ranks.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -139,34 +135,6 @@ private:
     int rank_;
 };
 
-class ThreadFile final : public FileOfRanks {
-public:
-    explicit ThreadFile(const std::string& path) : descriptor_(::open(path.c_str(), O_WRONLY | O_CLOEXEC)) {
-        if (descriptor_ < 0) throw_error();
-    }
-    ~ThreadFile() override { ::close(descriptor_); }
-    ThreadFile(const ThreadFile&) = delete;
-    ThreadFile& operator=(const ThreadFile&) = delete;
-
-    void write_at(std::uint64_t place, std::string_view bytes) override {
-        while (!bytes.empty()) {
-            const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(place));
-            if (written < 0 && errno == EINTR) continue;
-            if (written < 0) throw_error();
-            place += static_cast<std::uint64_t>(written);
-            bytes.remove_prefix(static_cast<std::size_t>(written));
-        }
-    }
-    void finish() override {
-        if (::fsync(descriptor_) < 0) throw_error();
-    }
-
-private:
-    [[noreturn]] static void throw_error() { throw std::system_error(errno, std::generic_category()); }
-
-    int descriptor_;
-};
-
 class ThreadLink final : public RankLink {
 public:
     ThreadLink(MeetingPoint& meeting_point, int rank) : meeting_point_(meeting_point), rank_(rank) {}
@@ -193,7 +161,6 @@ public:
     std::unique_ptr<Exchange> exchange(std::vector<Exchange::Peer> peers) override {
         return std::make_unique<ThreadExchange>(meeting_point_, rank_, std::move(peers));
     }
-    std::unique_ptr<FileOfRanks> open(const std::string& path) override { return std::make_unique<ThreadFile>(path); }
 
 private:
     MeetingPoint& meeting_point_;

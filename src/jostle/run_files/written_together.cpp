@@ -1,6 +1,10 @@
 #include "jostle/run_files/written_together.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <system_error>
 #include <utility>
@@ -12,6 +16,35 @@ namespace {
 
 constexpr std::size_t longest_piece = std::size_t{1} << 26;  ///< is read back at once
 
+/// Of ranks of one process.
+class LocalFile final : public FileOfRanks {
+public:
+    explicit LocalFile(const std::string& path) : descriptor_(::open(path.c_str(), O_WRONLY | O_CLOEXEC)) {
+        if (descriptor_ < 0) throw_error();
+    }
+    ~LocalFile() override { ::close(descriptor_); }
+    LocalFile(const LocalFile&) = delete;
+    LocalFile& operator=(const LocalFile&) = delete;
+
+    void write_at(std::uint64_t place, std::string_view bytes) override {
+        while (!bytes.empty()) {
+            const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(place));
+            if (written < 0 && errno == EINTR) continue;
+            if (written < 0) throw_error();
+            place += static_cast<std::uint64_t>(written);
+            bytes.remove_prefix(static_cast<std::size_t>(written));
+        }
+    }
+    void finish() override {
+        if (::fsync(descriptor_) < 0) throw_error();
+    }
+
+private:
+    [[noreturn]] static void throw_error() { throw std::system_error(errno, std::generic_category()); }
+
+    int descriptor_;
+};
+
 }  // namespace
 
 WrittenTogether::WrittenTogether(const RodsInOrder& rods, AppendFile* file, std::function<void(std::string_view)> seen)
@@ -21,6 +54,7 @@ WrittenTogether::WrittenTogether(const RodsInOrder& rods, AppendFile* file, std:
     end_ = file_ ? file_->size() : 0;
     try {
         together_ = ranks_.open(path_);
+        if (!together_) together_ = std::make_unique<LocalFile>(path_);
     } catch (const std::system_error& error) {
         throw DiskError(path_, "open for writing", error.code().value());
     }
