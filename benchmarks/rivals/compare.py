@@ -34,7 +34,7 @@ DAMPING = 0.1  # the same unit: a rod forgets its velocity within 0.1 sigma
 DAMPING_OF_NVT = 0.3
 PRECISION = 0.01  # of Z, that the last column is about
 FATTER = 1.01  # diameter of the rods that settle: so the start has no overlap
-LEAST_BLOCKS = 16  # of an error estimate
+LEAST_BLOCKS = 24  # of an error estimate, which is then known to 15 %
 STOPPED_EARLY = 75
 
 SCENE = """seed = 1
@@ -46,7 +46,7 @@ length = {length}
 diameter = {diameter}
 {start}
 [time]
-rms_step = {rms_step}
+{step}
 equilibration = 0.0
 production = 1e7
 [output]
@@ -103,17 +103,23 @@ def call(command, log, folder, threads=1, accepted=(0,)):
 class Jostle:
     name = "jostle"
     diameter = 1.0
-    physical_step = RMS_STEP**2 / 2  # in D^2/D_t
 
     def __init__(self, program):
         self.program = program
+        self.step = f"rms_step = {RMS_STEP}"
+        self.time_step = None  # in jostle's unit, after a session
+
+    @property
+    def physical_step(self):
+        """In D^2/D_t."""
+        return RMS_STEP**2 / 2
 
     def prepare(self, start, folder):
-        name = f"jostle-{start.phi}-{start.count}"
+        name = f"{self.name.replace(', ', '-').replace(' ', '-')}-{start.phi}-{start.count}"
         rods = numpy.hstack([start.centres, start.axes])
         numpy.savetxt(folder / f"{name}.csv", rods, "%.17g", ",", header="x,y,z,nx,ny,nz", comments="")
         (folder / f"{name}.toml").write_text(SCENE.format(
-            edge=start.edge, count=start.count, length=LENGTH, diameter=1.0, rms_step=RMS_STEP, trajectory_every=0,
+            edge=start.edge, count=start.count, length=LENGTH, diameter=1.0, step=self.step, trajectory_every=0,
             start=f'start = "file"\nfile = "{name}.csv"'))
         return name
 
@@ -123,11 +129,27 @@ class Jostle:
         wall, cpu = call([self.program, "run", f"{name}.toml", "--out", name, "--threads", threads, "--quiet",
                           "--walltime", f"0:{whole // 60:02d}:{whole % 60:02d}"],
                          f"{name}.{number}.log", folder, threads, (STOPPED_EARLY,))
-        record = json.loads((folder / name / "run.json").read_text())["sessions"][-1]
+        record = json.loads((folder / name / "run.json").read_text())
+        self.time_step, record = record["time_step"], record["sessions"][-1]
         rows = numpy.genfromtxt(folder / name / "series.csv", delimiter=",", names=True)
         rows = rows[rows["step"] > record["first_step"]]
         return Session(record["last_step"] - record["first_step"], record["wall_seconds"],
                        cpu * record["wall_seconds"] / wall, rows["Z"])
+
+
+class AccurateJostle(Jostle):
+    """With the longest step that leaves Z accurate to PRECISION."""
+
+    name = f"jostle, accuracy {PRECISION}"
+
+    def __init__(self, usual):
+        super().__init__(usual.program)
+        self.usual = usual
+        self.step = f"accuracy = {PRECISION}"
+
+    @property
+    def physical_step(self):
+        return self.usual.physical_step * self.time_step / self.usual.time_step
 
 
 class Lammps:
@@ -193,7 +215,7 @@ def settled(jostle, phi, count, seconds, folder):
     edge = (volume / phi) ** (1 / 3)
     name = f"settled-{phi}"
     (folder / f"{name}.toml").write_text(SCENE.format(
-        edge=edge, count=count, length=LENGTH, diameter=FATTER, rms_step=RMS_STEP, trajectory_every=100,
+        edge=edge, count=count, length=LENGTH, diameter=FATTER, step=f"rms_step = {RMS_STEP}", trajectory_every=100,
         start='start = "random"'))
     call([jostle, "run", f"{name}.toml", "--out", name, "--quiet", "--walltime", f"0:00:{math.ceil(seconds):02d}"],
          f"{name}.log", folder, 1, (STOPPED_EARLY,))
@@ -231,7 +253,7 @@ class Plan:
 
 
 QUICK = Plan(settle=10, warm=2, precise=5, timed=2, rounds=1)
-FULL = Plan(settle=20, warm=6, precise=9, timed=3, rounds=2)
+FULL = Plan(settle=20, warm=6, precise=40, timed=3, rounds=2)
 
 
 def measure(programs, start, threads_and_seconds, plan, folder):
@@ -327,7 +349,7 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--jostle", type=pathlib.Path, default=ROOT / "build" / "release" / "apps" / "jostle")
     parser.add_argument("--quick", action="store_true", help="2000 rods, a few seconds a session")
-    parser.add_argument("--count", type=int, help="rods: 8 times those that Z is taken from (default 20000)")
+    parser.add_argument("--count", type=int, help="rods: 125 times those that Z is taken from (default 20000)")
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("runs/rivals"), help="folder")
     return parser.parse_args()
 
@@ -342,14 +364,16 @@ def main():
         sys.exit("compare.py: needs h5py (Debian: apt-get install python3-h5py)")
     if not os.access(options.jostle, os.X_OK):
         sys.exit(f"compare.py: there is no program {options.jostle}: build it, or name it with --jostle")
-    counts = (2000, 1) if options.quick and not options.count else ((options.count or 20000) // 8, 2)
+    # Few rods go far in time, and Z needs that more than many: its errors come from rods that turn slowly.
+    counts = (2000, 1) if options.quick and not options.count else ((options.count or 20000) // 125, 5)
     folder = options.output.resolve()
     if folder.exists() and any(folder.iterdir()):
         sys.exit(f"compare.py: {folder} is not empty: name another folder with --output")
     folder.mkdir(parents=True, exist_ok=True)
     Lammps.diameter = effective_diameter()
     jostle = options.jostle.resolve()
-    programs = [Jostle(jostle), Lammps(6, "langevin"), Lammps(11, "langevin"), Lammps(11, "nvt")]
+    usual = Jostle(jostle)
+    programs = [usual, AccurateJostle(usual), Lammps(6, "langevin"), Lammps(11, "langevin"), Lammps(11, "nvt")]
     reference = read_reference()
     rows = []
     for phi in VOLUME_FRACTIONS:
