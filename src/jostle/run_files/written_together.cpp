@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <system_error>
 #include <utility>
 
@@ -77,9 +76,7 @@ void WrittenTogether::write(std::string_view bytes) {
 void WrittenTogether::write_column(std::uint64_t bytes, const FieldWriter::Pieces& pieces) {
     if (!together_) return pieces([&](std::uint64_t, std::string_view piece) { write(piece); });
     // What comes before is written by then: a file that ends early is seen to be incomplete.
-    const std::string told = ranks_.of_first(std::to_string(end_));
-    std::uint64_t begin = 0;
-    std::from_chars(told.data(), told.data() + told.size(), begin);
+    const auto begin = static_cast<std::uint64_t>(ranks_.sum(file_ ? static_cast<std::int64_t>(end_) : 0));
     pieces([&](std::uint64_t place, std::string_view piece) { write_at(begin + place, piece); });
     end_ = begin + bytes;
 }
