@@ -186,9 +186,10 @@ RodsInOrder Run::rods_for_files() const {
 }
 
 void Run::append_frame() {
-    std::vector<Mat3> stress;
-    if (scene_.output.stress_per_rod) stress = stress_of_last_step(simulation_, simulation_.rods_in_order());
     const RodsInOrder rods = rods_for_files();
+    std::vector<Mat3> stress;
+    if (scene_.output.stress_per_rod)
+        stress = stress_of_last_step(simulation_, rods.all_take() ? simulation_.rods_in_order() : rods);
     if (is_first())
         files_->append_frame(simulation_, rods, stress);
     else

@@ -69,17 +69,23 @@ def test_stopped_and_going_on_with_other_numbers_of_ranks(tmp_path, name):
     require_same_files(folder / "run", reference)
 
 
+def under_way_on_three_ranks(tmp_path, scene, above):
+    """(folder of a run that has some rows, what one process leaves of the same scene, the run's process)."""
+    write_scene(tmp_path / "alone", scene)
+    reference = finish(tmp_path / "alone")
+    folder = tmp_path / "three"
+    write_scene(folder, scene)
+    process = start_on_ranks(folder, 3, "--ranks-write-above", above)
+    wait_until(lambda: rows_of(folder / "run/series.csv") > 8, process)
+    return folder, reference, process
+
+
 @needs_mpi
 @pytest.mark.parametrize("rank, above", [(0, "1e8"), (2, "0")])
 def test_a_rank_that_is_killed(tmp_path, rank, above):
     """kill -9: the launcher ends the others, and the run goes on from its last checkpoint."""
     scene = changed(with_steps(CROWD, 300), output={"checkpoint_every": 25})
-    write_scene(tmp_path / "alone", scene)
-    reference = finish(tmp_path / "alone")
-    folder = tmp_path / "killed"
-    write_scene(folder, scene)
-    process = start_on_ranks(folder, 3, "--ranks-write-above", above)
-    wait_until(lambda: rows_of(folder / "run/series.csv") > 8, process)
+    folder, reference, process = under_way_on_three_ranks(tmp_path, scene, above)
     os.kill(pid_of_rank(process, rank), signal.SIGKILL)
     process.communicate(timeout=60)
     assert process.returncode not in (DONE, STOPPED)
@@ -131,12 +137,7 @@ def test_what_is_refused_leaves_no_trace(tmp_path, changes, key):
 def test_a_full_disk_ends_all(tmp_path, above):
     """A limit of what a file may have stands for it. Nothing that was sound is lost, and the run goes on where there is room."""
     scene = changed(with_steps(CROWD, 300), output={"trajectory_every": 2, "checkpoint_every": 25})
-    write_scene(tmp_path / "alone", scene)
-    reference = finish(tmp_path / "alone")
-    folder = tmp_path / "full"
-    write_scene(folder, scene)
-    process = start_on_ranks(folder, 3, "--ranks-write-above", above)
-    wait_until(lambda: rows_of(folder / "run/series.csv") > 8, process)
+    folder, reference, process = under_way_on_three_ranks(tmp_path, scene, above)
     limit = (folder / "run/trajectory.journal").stat().st_size + 9000  # a frame has 8400 bytes
     for rank in range(3):
         resource.prlimit(pid_of_rank(process, rank), resource.RLIMIT_FSIZE, (limit, limit))
