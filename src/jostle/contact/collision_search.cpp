@@ -276,8 +276,13 @@ void CollisionSearch::search_inactive(std::size_t block, GapAtEnd&& gap_at_end) 
     // Most have more left than any displacement since: those are passed over by this alone.
     take_off_changes(end - begin, pairs.i.data() + begin, pairs.j.data() + begin, change_.data(),
                      pairs.left.data() + begin);
-    for (std::size_t k = begin; k < end; ++k) {
-        if (pairs.left[k] > 0.0F) continue;
+    std::array<std::size_t, NeighbourList::block_size> used_up;
+    std::size_t count = 0;
+    for (std::size_t k = begin; k < end; ++k) {  // without a jump: it would be badly guessed
+        used_up[count] = k;
+        count += pairs.left[k] > 0.0F ? 0 : 1;
+    }
+    for (const std::size_t k : std::span(used_up).first(count)) {
         pairs.left[k] = width_of_slab(pairs, k);
         if (pairs.left[k] <= 0.0F) pairs.left[k] = gap_at_end(pairs.i[k], pairs.slab[k].in_block);
     }
@@ -294,16 +299,11 @@ void CollisionSearch::take_displacements(const EndConfiguration& end) {
 }
 
 std::vector<PairKey> CollisionSearch::violated_pairs(const StepGeometry& step, const Contacts& contacts,
-                                                     const EndConfiguration& end, bool thorough) {
+                                                     const EndConfiguration& end) {
     take_displacements(end);
-    // Whether a pair is near enough to be among the inactive does not depend on the history of the list if neither rod
-    // is displaced beyond the limit; the others wait for the thorough search.
-    const double limit = step.ranges.displacement_limit;
-    const auto within_limit = [&](std::uint32_t row) { return displacement_[row].farthest <= limit; };
     std::vector<std::vector<PairKey>> found(in_block_.size());
     constexpr float settled = std::numeric_limits<float>::infinity();  // a contact from now on
     const auto gap_at_end = [&](std::size_t block, const PairKey& key) {
-        if (!thorough && !(within_limit(key.i) && within_limit(key.j))) return 0.0F;
         const PairGeometry pair = end.pair(step.box, key);
         const double gap = pair_gap(pair);
         if (gap >= 0.0) return static_cast<float>(gap - 1e-6 * pair.radii);
@@ -318,11 +318,10 @@ std::vector<PairKey> CollisionSearch::violated_pairs(const StepGeometry& step, c
         });
     }
     // Pairs that were passed over because no force was thought to take rods so far; and all, once the list is another.
+    const double limit = step.ranges.displacement_limit;
     std::vector<NeighbourList::BeyondRange> farther;
-    if (thorough) {
-        for (const std::uint32_t row : end.rows)
-            if (!within_limit(row)) farther.push_back({row, displacement_[row].farthest - limit});
-    }
+    for (const std::uint32_t row : end.rows)
+        if (displacement_[row].farthest > limit) farther.push_back({row, displacement_[row].farthest - limit});
     if (!farther.empty()) neighbours_.widen(step.rods, step.box, interaction_range_, farther);
     const bool are_many = step.rods.size() < rods_per_one_beyond * farther.size();
     const bool in_blocks = are_many || neighbours_.built_while_widened();

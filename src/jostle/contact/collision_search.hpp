@@ -33,6 +33,7 @@ struct StepGeometry {
     bool forces_at_start = false;  ///< forces follow from where rods are before the step: there they meet their images
     /// Of so many first rows contacts with walls and fixed rods are sought; the others are other ranks' rods.
     std::size_t own = std::numeric_limits<std::size_t>::max();
+    double mean_displacement = 0.0;  ///< over the rods of all ranks
 
     std::size_t own_rods() const { return std::min(own, rods.size()); }
 };
@@ -54,10 +55,9 @@ public:
     /// max(0, -gap).
     double find(const StepGeometry& step, Contacts& contacts);
 
-    /// The pairs that are none of `contacts` but touch at the end of the step, in order. Unless `thorough`, only of
-    /// rods that forces displace within the limit.
-    std::vector<PairKey> violated_pairs(const StepGeometry& step, const Contacts& contacts, const EndConfiguration& end,
-                                        bool thorough);
+    /// The pairs that are none of `contacts` but touch at the end of the step, in order.
+    std::vector<PairKey> violated_pairs(const StepGeometry& step, const Contacts& contacts,
+                                        const EndConfiguration& end);
 
     /// The contacts of violated pairs, which the caller adds to those of the step.
     Contacts activate(std::span<const PairKey> violated, const StepGeometry& step);

@@ -1,22 +1,28 @@
 #include "jostle/contact/end_configuration.hpp"
 
+#include <cmath>
+#include <utility>
+
 #include "jostle/parallel/parallel_for.hpp"
 
 namespace jostle {
 
 namespace {
 
-/// What these velocities add to the known motion of a rod in a step.
-Displacement displacement_of(const ContactVelocity& velocity, double half_length, const Vec3& known_angular,
+/// What these velocities add to the known motion of a rod in a step. The farthest point is an end (rods.hpp,
+/// `farthest_displacement`).
+Displacement displacement_of(const ContactVelocity& velocity, const EndConfiguration::Turning& turning,
                              double time_step) {
-    const auto& [linear, axis_rate] = velocity;
+    const auto centre = in_float(time_step * velocity.centre), axis = in_float(time_step * velocity.axis_rate);
+    const float h = turning.half_length;
+    const float of_centre = centre[0] * centre[0] + centre[1] * centre[1] + centre[2] * centre[2];
+    const float of_axis = axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2];
+    const float of_both = centre[0] * axis[0] + centre[1] * axis[1] + centre[2] * axis[2];
     // Rotations add up to second order in their angles.
-    const double twist = half_length * time_step * time_step * norm(axis_rate) * norm(known_angular);
-    const Vec3 centre = time_step * linear, end = (time_step * half_length) * axis_rate;
-    const double farthest = farthest_displacement(centre, time_step * axis_rate, half_length) + twist;
-    const double rounding = 1e-6 * farthest;
-    return {in_float(centre), in_float(end), static_cast<float>(farthest + rounding),
-            static_cast<float>(twist + rounding)};
+    const float twist = h * std::sqrt(of_axis) * turning.by_known_motion;
+    const float farthest = std::sqrt(of_centre + h * (h * of_axis + 2.0F * std::fabs(of_both))) + twist;
+    const float rounding = 2e-6F * farthest;
+    return {centre, {h * axis[0], h * axis[1], h * axis[2]}, farthest + rounding, twist + rounding};
 }
 
 }  // namespace
@@ -26,7 +32,8 @@ void EndConfiguration::set_velocities(const ContactMatrix& contact_matrix,
     local_index = contact_matrix.local_index();
     rows = contact_matrix.rods();
     velocity.resize(rows.size());
-    displacement.resize(rows.size());
+    placed_centre.clear();
+    placed_axis.clear();
     parallel_for(rows.size(), [&](std::size_t k) {
         velocity[k] = {};
         for (const std::span<const ContactVelocity> part : parts) {
@@ -34,9 +41,30 @@ void EndConfiguration::set_velocities(const ContactMatrix& contact_matrix,
             velocity[k].centre += part[k].centre;
             velocity[k].axis_rate += part[k].axis_rate;
         }
-        displacement[k] =
-            displacement_of(velocity[k], 0.5 * rods.length[rows[k]], known_velocity.angular[rows[k]], time_step);
     });
+}
+
+void EndConfiguration::find_displacements() {
+    displacement.resize(rows.size());
+    const std::size_t known_before = turning.size();
+    turning.resize(rows.size());
+    parallel_for(rows.size() - known_before, [&](std::size_t new_one) {
+        const std::size_t k = known_before + new_one;
+        turning[k] = {static_cast<float>(0.5 * rods.length[rows[k]]),
+                      static_cast<float>(time_step * norm(known_velocity.angular[rows[k]]))};
+    });
+    parallel_for(rows.size(),
+                 [&](std::size_t k) { displacement[k] = displacement_of(velocity[k], turning[k], time_step); });
+}
+
+void EndConfiguration::place_rods() {
+    std::vector<Vec3> centres(rows.size()), axes(rows.size());
+    parallel_for(rows.size(), [&](std::size_t k) {
+        centres[k] = centre_at_end(rods, rows[k], known_velocity, velocity[k], time_step);
+        axes[k] = axis_at_end(rods, rows[k], known_velocity, velocity[k], time_step);
+    });
+    placed_centre = std::move(centres);
+    placed_axis = std::move(axes);
 }
 
 }  // namespace jostle

@@ -33,8 +33,8 @@ inline Vec3 axis_at_end(const Rods& rods, std::uint32_t row, const Velocities& k
 }
 
 /// Rods at the end of a step in which contact forces act: those with contacts where the forces take them, the others
-/// where the known motion does. Worked out when asked for: few are. Holds references, and spans of the contact matrix,
-/// which last until that is extended.
+/// where the known motion does. Worked out when asked for: few are, unless `place_rods` was called. Holds references,
+/// and spans of the contact matrix, which last until that is extended.
 struct EndConfiguration {
     const Rods& rods;                  ///< as the step begins
     const Velocities& known_velocity;  ///< (N)
@@ -43,21 +43,33 @@ struct EndConfiguration {
     std::span<const std::uint32_t> local_index{};  ///< (N) a rod's number among those with contacts, or no_local_index
     std::span<const std::uint32_t> rows{};         ///< (n) of the rods with contacts
     std::vector<ContactVelocity> velocity{};       ///< (n) theirs by contact forces
-    std::vector<Displacement> displacement{};      ///< (n) what the forces add to their known motion
+    std::vector<Displacement> displacement{};      ///< (n) what these add to the known motion, once it is found
+    std::vector<Vec3> placed_centre{}, placed_axis{};  ///< (n) after `place_rods`, else none
+    struct Turning {                                   ///< what a displacement needs of a rod
+        float half_length, by_known_motion;            ///< a length; an angle
+    };
+    std::vector<Turning> turning{};  ///< (n) once displacements are found
 
     /// Makes it that of forces by which rods have the sum of these velocities, each (n) as the matrix numbers rods, or
     /// shorter, if that has grown since.
     void set_velocities(const ContactMatrix& contact_matrix,
                         std::initializer_list<std::span<const ContactVelocity>> parts);
 
+    void find_displacements();
+
+    /// Works out all rods with contacts: pays where each is asked for more than once.
+    void place_rods();
+
     Vec3 centre(std::uint32_t row) const {
         const std::uint32_t local = local_index[row];
         if (local == no_local_index) return known.centre[row];
+        if (local < placed_centre.size()) return placed_centre[local];
         return centre_at_end(rods, row, known_velocity, velocity[local], time_step);
     }
     Vec3 axis(std::uint32_t row) const {
         const std::uint32_t local = local_index[row];
         if (local == no_local_index) return known.axis[row];
+        if (local < placed_axis.size()) return placed_axis[local];
         return axis_at_end(rods, row, known_velocity, velocity[local], time_step);
     }
     /// The pair of rods as it is there.

@@ -36,11 +36,16 @@ BlockGaussSeidel<Real>::BlockGaussSeidel(const ContactProblem& problem, double t
       matrix_(problem.matrix()),
       b_(problem.constant()),
       start_(start),
-      activation_threshold_(activation_tolerances * tolerance / problem.time_step()),
-      still_(still_part * tolerance / problem.time_step()),
       colours_per_exchange_(colours_per_exchange),
       pair_colours_(problem.matrix().box().plane) {
+    set_tolerance(tolerance);
     extend();
+}
+
+template <class Real>
+void BlockGaussSeidel<Real>::set_tolerance(double tolerance) {
+    activation_threshold_ = activation_tolerances * tolerance / problem_.time_step();
+    still_ = still_part * tolerance / problem_.time_step();
 }
 
 template <class Real>
@@ -92,7 +97,8 @@ LocalRods<Real> BlockGaussSeidel<Real>::local_rods() {
 }
 
 template <class Real>
-void BlockGaussSeidel<Real>::begin_again() {
+void BlockGaussSeidel<Real>::begin_again(double tolerance) {
+    set_tolerance(tolerance);
     parallel_for(velocities_.size(), [&](std::size_t local) { velocities_[local] = {}; });
     former_velocities_.clear();
     plane_velocity_ = 0.0;

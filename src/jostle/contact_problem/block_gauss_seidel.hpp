@@ -36,7 +36,7 @@ public:
     void extend();
 
     /// Begins again with the constants that the problem has now, and no forces.
-    void begin_again();
+    void begin_again(double tolerance);
 
     /// One pass; returns the largest change of a gap velocity by a contact's own force. It passes over contacts whose
     /// rods stand still since they were solved last (`sweep_over`), unless `stir_all` was called since.
@@ -57,6 +57,7 @@ public:
 private:
     using Colour = ColourContacts<Real>;
 
+    void set_tolerance(double tolerance);
     ScalarBlock<Real> contact_of(const ContactPair& pair) const;
     CoupledBlock pair_of(const ContactPair& pair) const;
     void begin_again(ScalarBlock<Real>& contact) const;
@@ -85,7 +86,7 @@ private:
     const DelassusOperator& matrix_;
     const std::vector<double>& b_;
     const std::vector<double>& start_;
-    double activation_threshold_, still_;
+    double activation_threshold_ = 0.0, still_ = 0.0;
     std::size_t colours_per_exchange_;
     std::size_t local_count_ = 0;                  ///< n
     std::vector<MobileRod> borrowed_rods_;         ///< (m >= n) local rods and those of borrowed contacts; or none

@@ -32,8 +32,8 @@ public:
         return at_solution_;
     }
 
-    void begin_again() override {
-        ContactSolver::begin_again();
+    void begin_again(double tolerance) override {
+        ContactSolver::begin_again(tolerance);
         begins_ = true;
     }
 

@@ -24,8 +24,10 @@ public:
     /// `at_solution`, only if the problem has grown.
     virtual bool run_to_next_stop() = 0;
 
-    /// To be told where the problem has been posed again, with other constants: the next run begins from no forces.
-    virtual void begin_again() {
+    /// To be told where the problem has been posed again, with other constants: the next run begins from no forces, and
+    /// ends at this tolerance.
+    virtual void begin_again(double tolerance) {
+        settings_.tolerance = tolerance;
         solution_.gamma.assign(problem_.size(), 0.0);
         solution_.resize(problem_.contact_matrix());
         at_solution_ = at_near_candidate_ = false;
@@ -59,15 +61,15 @@ protected:
     }
 
     const ContactProblem& problem_;
-    const LcpSettings& settings_;
+    LcpSettings settings_;
     ContactSolution solution_;
     SolverOutcome outcome_;
     bool at_solution_ = false, at_near_candidate_ = false;
 };
 
 /// The solver of a method; "auto" is projected SOR where neither the mobility nor the volume couples rods;
-/// NearFirst where the mobility couples them and has a near part; else adaptive Barzilai-Borwein descent. Holds
-/// references to problem and settings.
+/// NearFirst where the mobility couples them and has a near part; else adaptive Barzilai-Borwein descent. Holds a
+/// reference to the problem.
 ///
 /// Throws InputError if projected SOR is asked for where they do.
 std::unique_ptr<ContactSolver> make_contact_solver(const ContactProblem& problem, SolverMethod method,

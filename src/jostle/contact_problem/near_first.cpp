@@ -48,8 +48,8 @@ bool NearFirst::run_to_next_stop() {
     }
 }
 
-void NearFirst::begin_again() {
-    ContactSolver::begin_again();
+void NearFirst::begin_again(double tolerance) {
+    ContactSolver::begin_again(tolerance);
     std::fill(solution_.velocities.begin(), solution_.velocities.end(), ContactVelocity{});
     begins_ = true;
     searched_early_ = false;

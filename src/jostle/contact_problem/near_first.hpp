@@ -24,7 +24,7 @@ class NearFirst final : public ContactSolver {
 public:
     NearFirst(const ContactProblem& problem, const LcpSettings& settings);
     bool run_to_next_stop() override;
-    void begin_again() override;
+    void begin_again(double tolerance) override;
 
 private:
     std::vector<double> rates_of_velocities() const;

@@ -27,6 +27,8 @@ constexpr double finest_in_float = 1e-5;
 constexpr int patience_with_float = 3;
 /// After this sweep, and three times as many, and so on, violated pairs are looked for before the sweeps have settled.
 constexpr std::uint64_t early_search = 6;
+/// And where a contact changes by no more than so many tolerances.
+constexpr double search_tolerances = 10.0;
 /// Momentum is quick to this part of the deepest overlap, and stands still before finer tolerances.
 constexpr double finest_with_momentum = 2e-3;
 /// With momentum, first where the largest change is this part of that of the first sweep, then whenever it has fallen
@@ -71,9 +73,9 @@ public:
 
     /// With the constants that the problem has now, from no forces. `verify_first`: before any sweep.
     void begin_again(bool verify_first) {
-        gauss_seidel_.begin_again();
+        gauss_seidel_.begin_again(settings_.tolerance);
         momentum_.restart();
-        warm_ = may_have_momentum_ = at_candidate_ = sweep_all_ = false;
+        warm_ = may_have_momentum_ = at_candidate_ = sweep_all_ = is_near_ = found_more_ = false;
         verify_first_ = verify_first;
         begun_ = outcome_.iterations;
         next_search_ = begun_ + early_search;
@@ -87,6 +89,7 @@ public:
         if (grown) {
             gauss_seidel_.extend();
             momentum_.restart();
+            found_more_ = true;
         }
         bool sweep_is_judged = !std::exchange(at_candidate_, false) || grown;
         if (std::exchange(verify_first_, false) && verify()) return verified_end();
@@ -155,12 +158,26 @@ private:
     }
 
     bool is_time_to_search() {
-        if (!(has_momentum() ? has_fallen_to_next_search() : outcome_.iterations >= next_search_)) return false;
-        next_search_ = begun_ + 3 * (outcome_.iterations - begun_);
-        next_search_change_ = next_search_part * change_;
+        if (!(has_momentum() ? has_fallen_to_next_search() : has_come_to_next_search())) return false;
+        plan_next_search();
         gauss_seidel_.read_velocities(solution_);
         at_candidate_ = true;
         return true;
+    }
+
+    /// After the search at this stop.
+    void plan_next_search() {
+        next_search_ = begun_ + 3 * (outcome_.iterations - begun_);
+        next_search_change_ = next_search_part * change_;
+        is_near_ = change_ <= search_tolerances * settings_.tolerance;
+        found_more_ = false;
+    }
+
+    /// Contacts that are found at the solution cost as many sweeps again: if there were new ones at the last search,
+    /// the next one is before that.
+    bool has_come_to_next_search() const {
+        const bool comes_near = !is_near_ && found_more_ && change_ <= search_tolerances * settings_.tolerance;
+        return comes_near || outcome_.iterations >= next_search_;
     }
 
     bool has_fallen_to_next_search() {
@@ -183,6 +200,7 @@ private:
     End verified_end() {
         if (outcome_.status == LcpStatus::not_finite) return End::lost;
         ++outcome_.solves;
+        plan_next_search();
         return End::solution;
     }
 
@@ -197,6 +215,8 @@ private:
     std::uint64_t begun_ = 0;  ///< sweeps before it began again
     std::uint64_t next_search_ = early_search, next_verification_ = 0;
     double next_search_change_ = 0.0;  ///< the same by the largest change
+    bool is_near_ = false;             ///< whether the last search was nearly at the solution
+    bool found_more_ = false;          ///< by the last search
     bool at_candidate_ = false, sweep_all_ = false;
     double change_ = 0.0;  ///< of a gap by the last sweep, at most
 };
@@ -204,11 +224,10 @@ private:
 ProjectedSor::ProjectedSor(const ContactProblem& problem, const LcpSettings& settings)
     : ContactSolver(problem, settings) {
     const double overlap = deepest_overlap();
-    may_have_momentum_ = settings.tolerance > finest_with_momentum * overlap && is_crowd(pushing_at_start()) &&
+    may_have_momentum_ = settings_.tolerance > finest_with_momentum * overlap && is_crowd(pushing_at_start()) &&
                          !problem.matrix().opens_box();
-    if (settings.residual == LcpResidual::length && std::isfinite(overlap) &&
-        settings.tolerance > finest_in_float * overlap)
-        in_float_ = std::make_unique<Sweeps<float>>(problem, settings, solution_, outcome_, patience_with_float,
+    if (is_fine_enough_in_float(overlap))
+        in_float_ = std::make_unique<Sweeps<float>>(problem, settings_, solution_, outcome_, patience_with_float,
                                                     overlap == 0.0, may_have_momentum_);
 }
 
@@ -231,11 +250,17 @@ double ProjectedSor::deepest_overlap() const {
     return problem_.time_step() * problem_.domain().ranks().largest(deepest);
 }
 
-void ProjectedSor::begin_again() {
-    ContactSolver::begin_again();
-    const bool solved = deepest_overlap() == 0.0;
-    if (in_float_) in_float_->begin_again(solved);
-    if (in_double_) in_double_->begin_again(solved);
+bool ProjectedSor::is_fine_enough_in_float(double overlap) const {
+    return settings_.residual == LcpResidual::length && std::isfinite(overlap) &&
+           settings_.tolerance > finest_in_float * overlap;
+}
+
+void ProjectedSor::begin_again(double tolerance) {
+    ContactSolver::begin_again(tolerance);
+    const double overlap = deepest_overlap();
+    if (in_float_ && !is_fine_enough_in_float(overlap)) in_float_.reset();
+    if (in_float_) in_float_->begin_again(overlap == 0.0);
+    if (in_double_) in_double_->begin_again(overlap == 0.0);
 }
 
 bool ProjectedSor::run_to_next_stop() {

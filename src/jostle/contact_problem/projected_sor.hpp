@@ -32,13 +32,14 @@ public:
     ProjectedSor(const ContactProblem& problem, const LcpSettings& settings);
     ~ProjectedSor() override;
     bool run_to_next_stop() override;
-    void begin_again() override;
+    void begin_again(double tolerance) override;
 
 private:
     template <class Real>
     class Sweeps;
 
     double deepest_overlap() const;
+    bool is_fine_enough_in_float(double overlap) const;
     std::size_t pushing_at_start() const;
 
     std::unique_ptr<Sweeps<float>> in_float_;

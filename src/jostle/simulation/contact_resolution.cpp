@@ -1,5 +1,6 @@
 #include "jostle/simulation/contact_resolution.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "jostle/contact/gaps_at.hpp"
@@ -23,6 +24,10 @@ struct Relinearisation {
 };
 constexpr Relinearisation where_forces_turn_rods{0.01, 5}, where_noise_does{0.03, 2};
 
+/// The first of the two solutions of a step only says where paths are mirrored: it is solved to so many tolerances, but
+/// no coarser than to this part of how far the known motion takes rods in the mean (decision 0080).
+constexpr double mirror_tolerances = 30.0, mirror_part = 0.005;
+
 }  // namespace
 
 ContactProblem ContactResolution::posed(const MobilityOperator& mobility, Contacts found,
@@ -40,13 +45,15 @@ ContactProblem ContactResolution::posed(const MobilityOperator& mobility, Contac
 
 std::optional<ContactSolution> ContactResolution::solve(ContactProblem& problem, StepReport& report) {
     if (settings_.rods_are_soft()) return repelled(problem);
-    const auto solver = make_contact_solver(problem, settings_.method, settings_.lcp);
+    LcpSettings first = settings_.lcp;
+    if (settings_.corrects_brownian_motion()) first.tolerance = tolerance_of_mirrors();
+    const auto solver = make_contact_solver(problem, settings_.method, first);
     if (!run_to_solution(*solver, problem, nullptr)) return std::nullopt;
     ContactSolution mirrored;
     if (solver->outcome().status == LcpStatus::converged && settings_.corrects_brownian_motion()) {
         mirrored = reflected(problem, solver->solution());
         problem.pose_again(gap_velocities_beside(mirrored, problem.contacts(), problem.contact_matrix()));
-        solver->begin_again();
+        solver->begin_again(settings_.lcp.tolerance);
         if (!run_to_solution(*solver, problem, &mirrored)) return std::nullopt;
     }
     const SolverOutcome& outcome = solver->outcome();
@@ -57,6 +64,12 @@ std::optional<ContactSolution> ContactResolution::solve(ContactProblem& problem,
     ContactSolution solution = std::move(*solver).take_solution();
     solution.add(mirrored);
     return solution;
+}
+
+double ContactResolution::tolerance_of_mirrors() const {
+    const double tolerance = settings_.lcp.tolerance;
+    if (settings_.lcp.residual != LcpResidual::length) return tolerance;
+    return std::max(tolerance, std::min(mirror_tolerances * tolerance, mirror_part * geometry_.mean_displacement));
 }
 
 // Not in the paper: soft rods. The forces follow from where rods are before the step, and nothing has to be solved.
@@ -86,12 +99,14 @@ bool ContactResolution::run_to_solution(ContactSolver& solver, ContactProblem& p
         const ContactSolution& solution = solver.solution();
         end.set_velocities(problem.contact_matrix(),
                            {acting ? acting->velocities : std::span<const ContactVelocity>{}, solution.velocities});
+        end.find_displacements();
         Contacts more;
         if (solver.near_solution() && relinearisations-- > 0) {
+            end.place_rods();
             const Box box = opened_by((acting ? acting->box_rate : 0.0) + solution.box_rate);
             more = relinearised(problem, box, end, solution, how.max_overlap);
         }
-        const auto met = violated(problem, end, solver.at_solution());
+        const auto met = violated(problem, end);
         if (!met) return false;
         more.append(*met);
         if (more.size() == 0) continue;
@@ -110,9 +125,8 @@ Box ContactResolution::opened_by(double rate) const {
 // Pairs that are no contacts and yet touch at the end of the step, as contacts: also rods that a piston which goes
 // before them will not have touched. None if rods of other ranks might be
 // among them that are not known.
-std::optional<Contacts> ContactResolution::violated(const ContactProblem& problem, const EndConfiguration& end,
-                                                    bool at_solution) {
-    const auto pairs = searches_.rods.violated_pairs(geometry_, problem.contacts(), end, at_solution);
+std::optional<Contacts> ContactResolution::violated(const ContactProblem& problem, const EndConfiguration& end) {
+    const auto pairs = searches_.rods.violated_pairs(geometry_, problem.contacts(), end);
     if (domain_.ranks().any(searches_.rods.lacks_pairs())) return std::nullopt;
     Contacts contacts = searches_.rods.activate(pairs, geometry_);
     contacts.append(searches_.walls.violated(geometry_, end));
@@ -162,6 +176,7 @@ std::vector<double> ContactResolution::gap_velocities_beside(const ContactSoluti
                                                              const ContactMatrix& contact_matrix) const {
     EndConfiguration there = after_known_motion();
     there.set_velocities(contact_matrix, {acting.velocities});
+    if (contacts.size() > there.rows.size() / 2) there.place_rods();
     std::vector<double> b = gaps_at(contacts, opened_by(acting.box_rate), there);
     parallel_for(b.size(), [&](std::size_t l) {
         if (contacts.feature[l] == ContactFeature::relinearised) b[l] = contacts.contact[l].gap_after;

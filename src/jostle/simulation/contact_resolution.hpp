@@ -39,10 +39,11 @@ public:
     std::optional<ContactSolution> solve(ContactProblem& problem, StepReport& report);
 
 private:
+    double tolerance_of_mirrors() const;
     ContactSolution repelled(const ContactProblem& problem) const;
     ContactSolution reflected(const ContactProblem& problem, const ContactSolution& solution) const;
     bool run_to_solution(ContactSolver& solver, ContactProblem& problem, const ContactSolution* acting);
-    std::optional<Contacts> violated(const ContactProblem& problem, const EndConfiguration& end, bool at_solution);
+    std::optional<Contacts> violated(const ContactProblem& problem, const EndConfiguration& end);
     Contacts relinearised(const ContactProblem& problem, const Box& box, const EndConfiguration& end,
                           const ContactSolution& solution, double max_overlap_per_diameter) const;
     Box opened_by(double rate) const;

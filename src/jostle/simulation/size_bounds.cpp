@@ -35,6 +35,30 @@ double mean_of(const std::vector<double>& values, const Domain& domain, std::siz
            static_cast<double>(rods);
 }
 
+/// How far the search for contacts looks in a step. `displacement`: by the known motion, in the mean.
+SearchRanges search_ranges(const State& state, double displacement, const SizeBounds& sizes,
+                           const SimulationSettings& settings, bool crowded) {
+    const double mean_diameter = sizes.mean_diameter, mean_length = sizes.mean_length;
+    SearchRanges ranges = {.displacement_limit = max_displacement_limit * mean_diameter,
+                           .skin = skin_per_diameter * mean_diameter + skin_per_length * mean_length,
+                           .activation_margin = activation_margin_per_diameter * mean_diameter,
+                           .range = settings.rods_are_soft() ? (wca_range - 1.0) * sizes.max_diameter : settings.range};
+    if (crowded) ranges.activation_margin = activation_margin_in_a_crowd * mean_diameter;
+    if (settings.kT == 0.0 || crowded) return ranges;
+    // Not below half the margin: the neighbour list must hold every pair that may come within it.
+    ranges.displacement_limit =
+        std::clamp(limit_per_displacement * displacement, 0.5 * ranges.activation_margin, ranges.displacement_limit);
+    double max_skin = 1.0;
+    if (state.box.is_periodic()) {  // in an open one the volume does not tell how near rods are to each other
+        const double near = static_cast<double>(sizes.rods) *
+                            std::pow(mean_length + mean_diameter, state.box.dimensions()) / state.box.volume();
+        max_skin = std::clamp(std::sqrt(crowd / near), 1.0, max_skin_when_dilute);
+    }
+    ranges.skin *=
+        std::min(max_skin, std::pow(displacement / (displacement_at_default_step * mean_diameter), 2.0 / 3.0));
+    return ranges;
+}
+
 }  // namespace
 
 void find_size_bounds(const Rods& rods, const Domain& domain, const MobilityOperator& mobility,
@@ -50,41 +74,18 @@ void find_size_bounds(const Rods& rods, const Domain& domain, const MobilityOper
     parallel_for(rods.size(), [&](std::size_t i) { sizes.own_mobility[i] = mobility.of_rod(i); });
 }
 
-SearchRanges search_ranges(const State& state, const KnownMotion& known, const SizeBounds& sizes,
-                           const SimulationSettings& settings, const Domain& domain, std::size_t previous_forces) {
-    const double mean_diameter = sizes.mean_diameter, mean_length = sizes.mean_length;
-    SearchRanges ranges = {.displacement_limit = max_displacement_limit * mean_diameter,
-                           .skin = skin_per_diameter * mean_diameter + skin_per_length * mean_length,
-                           .activation_margin = activation_margin_per_diameter * mean_diameter,
-                           .range = settings.rods_are_soft() ? (wca_range - 1.0) * sizes.max_diameter : settings.range};
-    const bool crowded = is_crowd(previous_forces);
-    if (crowded) ranges.activation_margin = activation_margin_in_a_crowd * mean_diameter;
-    if (settings.kT == 0.0 || crowded) return ranges;
-    const double displacement = mean_of(known.displacement, domain, sizes.rods);
-    // Not below half the margin: the neighbour list must hold every pair that may come within it.
-    ranges.displacement_limit =
-        std::clamp(limit_per_displacement * displacement, 0.5 * ranges.activation_margin, ranges.displacement_limit);
-    double max_skin = 1.0;
-    if (state.box.is_periodic()) {  // in an open one the volume does not tell how near rods are to each other
-        const double near = static_cast<double>(sizes.rods) *
-                            std::pow(mean_length + mean_diameter, state.box.dimensions()) / state.box.volume();
-        max_skin = std::clamp(std::sqrt(crowd / near), 1.0, max_skin_when_dilute);
-    }
-    ranges.skin *=
-        std::min(max_skin, std::pow(displacement / (displacement_at_default_step * mean_diameter), 2.0 / 3.0));
-    return ranges;
-}
-
 StepGeometry step_geometry(const State& state, const KnownMotion& known, const SizeBounds& sizes,
                            const SimulationSettings& settings, const Domain& domain, std::size_t previous_forces) {
+    const double displacement = settings.kT > 0.0 ? mean_of(known.displacement, domain, sizes.rods) : 0.0;
     return {state.rods,
             state.box,
             known.end,
             known.displacement,
-            search_ranges(state, known, sizes, settings, domain, previous_forces),
+            search_ranges(state, displacement, sizes, settings, is_crowd(previous_forces)),
             settings.corrects_brownian_motion() ? normals_half_way : 0.0,
             settings.rods_are_soft(),
-            domain.owned_of(state.rods.size())};
+            domain.owned_of(state.rods.size()),
+            displacement};
 }
 
 }  // namespace jostle

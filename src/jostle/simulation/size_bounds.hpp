@@ -21,11 +21,8 @@ struct SizeBounds {
 void find_size_bounds(const Rods& rods, const Domain& domain, const MobilityOperator& mobility,
                       const SimulationSettings& settings, SizeBounds& sizes);
 
-/// How far the search for contacts looks in this step. `previous_forces`: how many all ranks know of the step before.
-SearchRanges search_ranges(const State& state, const KnownMotion& known, const SizeBounds& sizes,
-                           const SimulationSettings& settings, const Domain& domain, std::size_t previous_forces);
-
-/// The step as the search for contacts sees it. Holds references.
+/// The step as the search for contacts sees it. Holds references. `previous_forces`: how many all ranks know of the
+/// step before.
 StepGeometry step_geometry(const State& state, const KnownMotion& known, const SizeBounds& sizes,
                            const SimulationSettings& settings, const Domain& domain, std::size_t previous_forces);
 
