@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Cost of jostle beside that of LAMMPS with rods of rigid beads, in turns in the same run.
+"""Cost of jostle beside that of LAMMPS with rods of rigid beads, and of Monte Carlo, in turns in the same run.
 
     benchmarks/rivals/compare.py [--jostle PATH] [--quick] [--count N] [--output DIR]
 
@@ -100,9 +100,15 @@ def call(command, log, folder, threads=1, accepted=(0,)):
     return time.monotonic() - began, used.ru_utime + used.ru_stime
 
 
+def write_rods(start, path):
+    rods = numpy.hstack([start.centres, start.axes])
+    numpy.savetxt(path, rods, "%.17g", ",", header="x,y,z,nx,ny,nz", comments="")
+
+
 class Jostle:
     name = "jostle"
     diameter = 1.0
+    most_threads = 2
 
     def __init__(self, program):
         self.program = program
@@ -116,8 +122,7 @@ class Jostle:
 
     def prepare(self, start, folder):
         name = f"{self.name.replace(', ', '-').replace(' ', '-')}-{start.phi}-{start.count}"
-        rods = numpy.hstack([start.centres, start.axes])
-        numpy.savetxt(folder / f"{name}.csv", rods, "%.17g", ",", header="x,y,z,nx,ny,nz", comments="")
+        write_rods(start, folder / f"{name}.csv")
         (folder / f"{name}.toml").write_text(SCENE.format(
             edge=start.edge, count=start.count, length=LENGTH, diameter=1.0, step=self.step, trajectory_every=0,
             start=f'start = "file"\nfile = "{name}.csv"'))
@@ -152,8 +157,35 @@ class AccurateJostle(Jostle):
         return self.usual.physical_step * self.time_step / self.usual.time_step
 
 
+class MonteCarlo:
+    """Moves rods at random, and counts pairs that a smaller box would bring to overlap. A step is one move of each."""
+
+    name = "Metropolis Monte Carlo"
+    diameter = 1.0
+    most_threads = 1
+    physical_step = None
+
+    def __init__(self, program):
+        self.program = program
+        self.edges = {}
+
+    def prepare(self, start, folder):
+        name = f"monte-carlo-{start.phi}-{start.count}"
+        write_rods(start, folder / f"{name}.csv")
+        self.edges[name] = start.edge
+        return name
+
+    def session(self, name, number, threads, seconds, folder):
+        log, series = f"{name}.{number}.log", f"{name}.{number}.series"
+        rods = f"{name}.csv"
+        call([self.program, rods, self.edges[name], LENGTH, seconds, number + 1, series, rods], log, folder)
+        sweeps, wall, cpu = re.search(r"(\d+) sweeps, (\S+) s, (\S+) s", (folder / log).read_text()).groups()
+        return Session(int(sweeps), float(wall), float(cpu), numpy.loadtxt(folder / series, ndmin=1))
+
+
 class Lammps:
     diameter = None  # of the hard sphere that stands for a WCA bead, in sigma; set below
+    most_threads = 2
 
     def __init__(self, beads, thermostat):
         self.beads, self.thermostat = beads, thermostat
@@ -266,6 +298,8 @@ def measure(programs, start, threads_and_seconds, plan, folder):
         for threads, seconds in threads_and_seconds:
             number += 1
             for program in programs:
+                if threads > program.most_threads:
+                    continue
                 done = program.session(names[program], number, threads, seconds, folder)
                 sessions.setdefault((program, threads), []).append(done)
     return sessions
@@ -372,8 +406,12 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     Lammps.diameter = effective_diameter()
     jostle = options.jostle.resolve()
+    monte_carlo = jostle.parents[1] / "benchmarks" / "benchmark_monte_carlo"
+    if not os.access(monte_carlo, os.X_OK):
+        sys.exit(f"compare.py: there is no program {monte_carlo}: build it with the benchmarks")
     usual = Jostle(jostle)
-    programs = [usual, AccurateJostle(usual), Lammps(6, "langevin"), Lammps(11, "langevin"), Lammps(11, "nvt")]
+    programs = [usual, AccurateJostle(usual), MonteCarlo(monte_carlo), Lammps(6, "langevin"), Lammps(11, "langevin"),
+                Lammps(11, "nvt")]
     reference = read_reference()
     rows = []
     for phi in VOLUME_FRACTIONS:
