@@ -1,6 +1,5 @@
 #include "jostle/contact/end_configuration.hpp"
 
-#include <cmath>
 #include <utility>
 
 #include "jostle/parallel/parallel_for.hpp"
@@ -9,20 +8,17 @@ namespace jostle {
 
 namespace {
 
-/// What these velocities add to the known motion of a rod in a step. The farthest point is an end (rods.hpp,
-/// `farthest_displacement`).
+/// What these velocities add to the known motion of a rod in a step.
 Displacement displacement_of(const ContactVelocity& velocity, const EndConfiguration::Turning& turning,
                              double time_step) {
-    const auto centre = in_float(time_step * velocity.centre), axis = in_float(time_step * velocity.axis_rate);
-    const float h = turning.half_length;
-    const float of_centre = centre[0] * centre[0] + centre[1] * centre[1] + centre[2] * centre[2];
-    const float of_axis = axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2];
-    const float of_both = centre[0] * axis[0] + centre[1] * axis[1] + centre[2] * axis[2];
+    const double half_length = turning.half_length;
+    const Vec3 centre = time_step * velocity.centre, axis = time_step * velocity.axis_rate;
     // Rotations add up to second order in their angles.
-    const float twist = h * std::sqrt(of_axis) * turning.by_known_motion;
-    const float farthest = std::sqrt(of_centre + h * (h * of_axis + 2.0F * std::fabs(of_both))) + twist;
-    const float rounding = 2e-6F * farthest;
-    return {centre, {h * axis[0], h * axis[1], h * axis[2]}, farthest + rounding, twist + rounding};
+    const double twist = half_length * norm(axis) * turning.by_known_motion;
+    const double farthest = farthest_displacement(centre, axis, half_length) + twist;
+    const double rounding = 1e-6 * farthest;
+    return {in_float(centre), in_float(half_length * axis), static_cast<float>(farthest + rounding),
+            static_cast<float>(twist + rounding)};
 }
 
 }  // namespace
@@ -50,8 +46,7 @@ void EndConfiguration::find_displacements() {
     turning.resize(rows.size());
     parallel_for(rows.size() - known_before, [&](std::size_t new_one) {
         const std::size_t k = known_before + new_one;
-        turning[k] = {static_cast<float>(0.5 * rods.length[rows[k]]),
-                      static_cast<float>(time_step * norm(known_velocity.angular[rows[k]]))};
+        turning[k] = {0.5 * rods.length[rows[k]], time_step * norm(known_velocity.angular[rows[k]])};
     });
     parallel_for(rows.size(),
                  [&](std::size_t k) { displacement[k] = displacement_of(velocity[k], turning[k], time_step); });

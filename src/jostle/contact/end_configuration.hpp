@@ -44,11 +44,12 @@ struct EndConfiguration {
     std::span<const std::uint32_t> rows{};         ///< (n) of the rods with contacts
     std::vector<ContactVelocity> velocity{};       ///< (n) theirs by contact forces
     std::vector<Displacement> displacement{};      ///< (n) what these add to the known motion, once it is found
-    std::vector<Vec3> placed_centre{}, placed_axis{};  ///< (n) after `place_rods`, else none
-    struct Turning {                                   ///< what a displacement needs of a rod
-        float half_length, by_known_motion;            ///< a length; an angle
+    /// What a displacement needs of a rod.
+    struct Turning {
+        double half_length, by_known_motion;  ///< a length; an angle
     };
-    std::vector<Turning> turning{};  ///< (n) once displacements are found
+    std::vector<Turning> turning{};                    ///< (n) once displacements are found
+    std::vector<Vec3> placed_centre{}, placed_axis{};  ///< (n) after `place_rods`, else none
 
     /// Makes it that of forces by which rods have the sum of these velocities, each (n) as the matrix numbers rods, or
     /// shorter, if that has grown since.
