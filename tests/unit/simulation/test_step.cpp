@@ -85,7 +85,7 @@ TEST_CASE("collisions beyond the first reach are found: a sphere flung through a
     Simulation simulation({box, rods}, make_mobility(scene), std::move(motions), settings);
     const StepReport report = simulation.step();
     CHECK(report.status == LcpStatus::converged);
-    CHECK(report.solves > 1);
+    CHECK(report.active_contacts == 3);  // the known motion brings the first one about
     CHECK(largest_overlap(simulation.rods(), box) < 1e-6);
     CHECK(simulation.rods().centre[count - 1].x >= 1.0 + 1.05 * static_cast<double>(count - 1));
 }
