@@ -41,7 +41,7 @@ struct Stretch {
 };
 constexpr Stretch loosening = {100, 0.15, false}, settling = {400, 0.1, true}, tightening = {100, 0.05, true};
 /// Of the contact problems, in D.
-constexpr double tolerance = 1e-3;
+constexpr double contact_tolerance = 1e-3;
 
 /// Rods shorter than thick get past each other as spheres do.
 bool hinder_each_other(const Rods& rods) {
@@ -130,7 +130,7 @@ private:
         settings.kT = 1.0;
         settings.time_step = 0.5 * rms * rms;  // unit mobility and kT: rms step sqrt(2 dt)
         settings.brownian_correction = stretch.corrected;
-        settings.lcp.tolerance = tolerance * thinnest;
+        settings.lcp.tolerance = contact_tolerance * thinnest;
         settings.lcp.max_iterations = 1000;
         std::vector<std::unique_ptr<Motion>> motions;
         motions.push_back(std::make_unique<BrownianMotion>(settings.kT, box_.dimensions()));
