@@ -3,17 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include "jostle/contact/neighbour_list.hpp"
 #include "jostle/parallel/parallel_for.hpp"
+#include "jostle/scene_file/rods_file.hpp"
 #include "jostle/setup/monte_carlo.hpp"
 
 using namespace jostle;
@@ -22,29 +22,13 @@ namespace {
 
 const char* const usage =
     "usage: benchmark_monte_carlo START.csv EDGE LENGTH SECONDS SEED SERIES END.csv\n"
-    "Rods of diameter 1 in a periodic cube, one thread. START.csv has a line of names, then x,y,z,nx,ny,nz of each "
-    "rod;\n"
-    "END.csv gets the same at the end, SERIES one value of Z a line. Prints sweeps, wall and processor seconds.\n";
+    "Rods of diameter 1 in a periodic cube, one thread. START.csv is what a scene's rods.file is;\n"
+    "END.csv gets places and axes at the end, SERIES one value of Z a line. Prints sweeps, wall and processor "
+    "seconds.\n";
 
 constexpr double hard = 1e3;          ///< kT for an overlap
 constexpr int sweeps_a_row = 2;       ///< of the series
 constexpr double compression = 8e-3;  ///< by this part of an edge, twice and three times as much
-
-Rods read_rods(const std::string& path, double length) {
-    std::ifstream file(path);
-    Rods rods;
-    std::string line;
-    std::getline(file, line);
-    while (std::getline(file, line)) {
-        std::istringstream numbers(line);
-        std::array<double, 6> of{};
-        char comma = 0;
-        for (double& number : of) numbers >> number >> comma;
-        rods.push_back(rods.size(), {of[0], of[1], of[2]}, normalised({of[3], of[4], of[5]}), length, 1.0);
-    }
-    if (rods.size() == 0) throw std::runtime_error(path + " holds no rods");
-    return rods;
-}
 
 void write_rods(const Rods& rods, const std::string& path) {
     std::ofstream file(path);
@@ -80,7 +64,7 @@ double compressibility(const Rods& rods, const Box& box) {
 
 void run(char** words) {
     const double edge = std::stod(words[2]), length = std::stod(words[3]), seconds = std::stod(words[4]);
-    Rods rods = read_rods(words[1], length);
+    Rods rods = read_rods(words[1], length, 1.0);
     const Box box{{edge, edge, edge}};
     parallel::set_thread_count(1);
     MonteCarlo monte_carlo(rods, box, std::stoull(words[5]));

@@ -123,13 +123,14 @@ TEST_CASE("two rods far apart across the faces along y stay apart as the flow ha
 TEST_CASE("sheared rods do not overlap, and oscillating ones come back to the box they began in") {
     Simulation simulation = started(crowd());
     std::size_t active = 0;
-    for (int step = 0; step < 450; ++step) {  // over two jumps of the copies
+    for (int step = 0; step < 900; ++step) {  // over four jumps of the copies
         const StepReport report = simulation.step();
         REQUIRE(report.status == LcpStatus::converged);
         REQUIRE(report.max_overlap < 0.05);
         active += report.active_contacts;
     }
-    CHECK(active > 3400);  // 32 seeds have 5200 on average, and scatter by 360
+    INFO(active);
+    CHECK(active > 9000);
 
     Scene scene = crowd();
     scene.flow = {0.0, 0.3, 5.0, 0.0};
