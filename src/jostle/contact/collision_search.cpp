@@ -6,6 +6,7 @@
 
 #include "jostle/contact/own_image.hpp"
 #include "jostle/contact/segment_separation.hpp"
+#include "jostle/math/marked_numbers.hpp"
 #include "jostle/math/vectorised.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 
@@ -32,20 +33,23 @@ constexpr std::size_t rods_per_one_beyond = 50;
 struct Batch {
     static constexpr std::size_t size = 128;  ///< few enough to stay in the nearest cache
     using Row = std::array<float, size>;
+    std::array<std::uint32_t, size> i, j;      ///< rows
+    std::array<std::uint16_t, size> in_block;  ///< numbers of the pairs in their block
     std::array<Row, 3> between, moved, axis_i, axis_j, axis_i_after, axis_j_after;
     Row half_i, half_j, radii;
-    Row gap;          ///< before the step
-    Row bound_after;  ///< lower bound of the gap after the known motion: the width of a slab with `normal`
-    Row same_side;    ///< cosine of the angle between the lines of nearest points before and after that motion
+    Row gap;        ///< before the step
+    Row slack;      ///< lower bound of the gap after the known motion: the width of a slab with `normal`
+    Row same_side;  ///< cosine of the angle between the lines of nearest points before and after that motion
     std::array<std::array<std::int16_t, size>, 3> normal;  ///< in units of normal_unit
+    std::array<std::uint8_t, size> inactive, doubtful;     ///< marks: by these bounds, or not
 };
 
 /// Beyond this cosine, rounding apart, rods have not passed through each other.
 constexpr float clearly_same_side = 0.1F;
 
 /// The gaps of pairs, and the width of the empty slab between the moved rods whose faces are normal to the line between
-/// their nearest points.
-JOSTLE_VECTORISED void find_bounds(std::size_t count, Batch& batch) {
+/// their nearest points; so those are marked whose gap is above `range` now, and above `margin` then.
+JOSTLE_VECTORISED void find_bounds(std::size_t count, float range, float margin, Batch& batch) {
     const auto& [x, y, z] = batch.between;
     const auto& [mx, my, mz] = batch.moved;
     const auto& [ux, uy, uz] = batch.axis_i;
@@ -67,16 +71,24 @@ JOSTLE_VECTORISED void find_bounds(std::size_t count, Batch& batch) {
         normal_z[k] = in_normal_units(nz);
         batch.gap[k] = distance - batch.radii[k];
         batch.same_side[k] = (ex * nx + ey * ny + ez * nz) / distance;
-        batch.bound_after[k] = ax * nx + ay * ny + az * nz -
-                               batch.half_i[k] * std::fabs(px[k] * nx + py[k] * ny + pz[k] * nz) -
-                               batch.half_j[k] * std::fabs(qx[k] * nx + qy[k] * ny + qz[k] * nz) - batch.radii[k];
+        const float width = ax * nx + ay * ny + az * nz -
+                            batch.half_i[k] * std::fabs(px[k] * nx + py[k] * ny + pz[k] * nz) -
+                            batch.half_j[k] * std::fabs(qx[k] * nx + qy[k] * ny + qz[k] * nz) - batch.radii[k];
+        batch.slack[k] = width - bound_error * (batch.half_i[k] + batch.half_j[k] + batch.radii[k]);
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+        const bool is_apart = batch.gap[k] - gap_error * batch.radii[k] > range;
+        const bool is_clear = is_apart && batch.same_side[k] > clearly_same_side && batch.slack[k] >= margin;
+        batch.inactive[k] = is_clear ? 1 : 0;
+        batch.doubtful[k] = is_clear ? 0 : 1;
     }
 }
 
-/// What is left of the gaps of pairs whose rods have gone so far, rounding apart.
+/// What is left of the gaps of pairs whose rods have gone so far, rounding apart. Marks those that have nothing left.
 JOSTLE_VECTORISED void take_off_changes(std::size_t count, const std::uint32_t* i, const std::uint32_t* j,
-                                        const float* change, float* left) {
+                                        const float* change, float* left, std::uint8_t* marks) {
     for (std::size_t k = 0; k < count; ++k) left[k] = left[k] * (1.0F - 1e-6F) - (change[i[k]] + change[j[k]]);
+    for (std::size_t k = 0; k < count; ++k) marks[k] = left[k] > 0.0F ? 0 : 1;
 }
 
 /// How far forces take any point of a rod beyond where they took it at the last search, at most. Of two rotations the
@@ -140,7 +152,7 @@ void CollisionSearch::search_blocks(const StepGeometry& step) {
     shares_.resize(static_cast<std::size_t>(parallel::team_size(false)));
     for (Found& share : shares_) {
         share.contacts.clear();
-        share.inactive.clear();
+        share.inactive.resize(0);
         share.overlap = 0.0;
     }
     in_block_.resize(neighbours_.block_count());
@@ -156,32 +168,36 @@ void CollisionSearch::search_blocks(const StepGeometry& step) {
 }
 
 void CollisionSearch::search_block(std::size_t block, const StepGeometry& step, Found& found) {
-    std::array<std::uint32_t, Batch::size> rows_i, rows_j;
-    std::array<std::uint16_t, Batch::size> in_block;
+    std::array<std::uint16_t, Batch::size + 8> room;
     std::size_t count = 0;
     Batch batch;
+    const auto range = static_cast<float>(step.ranges.range),
+               margin = static_cast<float>(step.ranges.activation_margin);
     const auto sort_out = [&] {
-        find_bounds(count, batch);
-        for (std::size_t k = 0; k < count; ++k) {
-            const float size = batch.half_i[k] + batch.half_j[k] + batch.radii[k];
-            const float slack = batch.bound_after[k] - bound_error * size;
-            const bool clear = batch.gap[k] - gap_error * batch.radii[k] > static_cast<float>(step.ranges.range) &&
-                               batch.same_side[k] > clearly_same_side;
-            if (clear && slack >= static_cast<float>(step.ranges.activation_margin))
-                found.inactive.push_back(rows_i[k], rows_j[k], slack,
-                                         {{batch.normal[0][k], batch.normal[1][k], batch.normal[2][k]}, in_block[k]});
-            else
-                narrow_phase(rows_i[k], key_of(block, rows_i[k], in_block[k], step.rods), in_block[k], step, found);
+        find_bounds(count, range, margin, batch);
+        const auto inactive = marked_numbers(count, batch.inactive, room);
+        InactivePairs& pairs = found.inactive;
+        std::size_t n = pairs.size();
+        pairs.resize(n + inactive.size());
+        for (const std::uint16_t k : inactive) {
+            pairs.i[n] = batch.i[k];
+            pairs.j[n] = batch.j[k];
+            pairs.slack[n] = pairs.left[n] = batch.slack[k];
+            pairs.slab[n] = {{batch.normal[0][k], batch.normal[1][k], batch.normal[2][k]}, batch.in_block[k]};
+            ++n;
         }
+        for (const std::uint16_t k : marked_numbers(count, batch.doubtful, room))
+            narrow_phase(batch.i[k], key_of(block, batch.i[k], batch.in_block[k], step.rods), batch.in_block[k], step,
+                         found);
         count = 0;
     };
     neighbours_.for_close_pairs(block, [&](std::uint32_t row, std::size_t pair) {
         const auto& [i, j, image] = neighbours_.key(row, pair);
         const RodBounds &a = bounds_[i], &b = bounds_[j];
         const auto between = in_float(b.centre + step.box.displacement(image) - a.centre);
-        rows_i[count] = row;
-        rows_j[count] = j;
-        in_block[count] = static_cast<std::uint16_t>(pair - block * NeighbourList::block_size);
+        batch.i[count] = row;
+        batch.j[count] = j;
+        batch.in_block[count] = static_cast<std::uint16_t>(pair - block * NeighbourList::block_size);
         for (std::size_t k = 0; k < 3; ++k) {
             batch.between[k][count] = between[k];
             batch.moved[k][count] = b.moved[k] - a.moved[k];
@@ -274,15 +290,12 @@ void CollisionSearch::search_inactive(std::size_t block, GapAtEnd&& gap_at_end) 
     const auto [share, begin, end] = in_block_[block];
     InactivePairs& pairs = shares_[share].inactive;
     // Most have more left than any displacement since: those are passed over by this alone.
+    std::array<std::uint8_t, NeighbourList::block_size> marks;
+    std::array<std::uint16_t, NeighbourList::block_size + 8> room;
     take_off_changes(end - begin, pairs.i.data() + begin, pairs.j.data() + begin, change_.data(),
-                     pairs.left.data() + begin);
-    std::array<std::size_t, NeighbourList::block_size> used_up;
-    std::size_t count = 0;
-    for (std::size_t k = begin; k < end; ++k) {  // without a jump: it would be badly guessed
-        used_up[count] = k;
-        count += pairs.left[k] > 0.0F ? 0 : 1;
-    }
-    for (const std::size_t k : std::span(used_up).first(count)) {
+                     pairs.left.data() + begin, marks.data());
+    for (const std::uint16_t number : marked_numbers(end - begin, marks, room)) {
+        const std::size_t k = begin + number;
         pairs.left[k] = width_of_slab(pairs, k);
         if (pairs.left[k] <= 0.0F) pairs.left[k] = gap_at_end(pairs.i[k], pairs.slab[k].in_block);
     }

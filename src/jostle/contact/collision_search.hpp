@@ -99,12 +99,12 @@ private:
         std::vector<Slab> slab;
 
         std::size_t size() const { return slack.size(); }
-        void clear() {
-            i.clear();
-            j.clear();
-            slack.clear();
-            left.clear();
-            slab.clear();
+        void resize(std::size_t count) {
+            i.resize(count);
+            j.resize(count);
+            slack.resize(count);
+            left.resize(count);
+            slab.resize(count);
         }
         void push_back(std::uint32_t row_i, std::uint32_t row_j, float width, const Slab& new_slab) {
             i.push_back(row_i);

@@ -17,9 +17,11 @@ namespace {
 
 constexpr std::size_t cells_per_block = 16;
 
-JOSTLE_VECTORISED void extents_less_gaps(std::size_t count, const std::uint32_t* j, const std::uint16_t* gap,
-                                         const std::int32_t* extent, std::int32_t* extent_i) {
+/// Marks the pairs whose rods' extents are not less than their gap. `extent_i`: (count) of their rows i.
+JOSTLE_VECTORISED void mark_close(std::size_t count, const std::uint32_t* j, const std::uint16_t* gap,
+                                  const std::int32_t* extent, std::int32_t* extent_i, std::uint8_t* marks) {
     for (std::size_t k = 0; k < count; ++k) extent_i[k] += extent[j[k]] - gap[k];
+    for (std::size_t k = 0; k < count; ++k) marks[k] = extent_i[k] >= 0 ? 1 : 0;
 }
 
 }  // namespace
@@ -151,25 +153,20 @@ std::int32_t NeighbourList::in_units(double extent) const {
     return 1 + static_cast<std::int32_t>(std::min(extent * units_per_length_, 4.0 * units_per_list_range));
 }
 
-/// Those whose rods' extents exceed their gap.
 void NeighbourList::find_close_pairs(std::size_t block, InBlock& close) const {
     const std::size_t begin = block * block_size, end = std::min(begin + block_size, size());
-    std::array<std::int32_t, block_size> excess;
+    std::array<std::int32_t, block_size> extent_i;
     auto next = std::upper_bound(begin_.begin(), begin_.end(), begin);
     for (std::size_t pair = begin; pair < end; ++next) {
         const auto row = static_cast<std::uint32_t>(next - begin_.begin() - 1);
         const std::size_t last = std::min(*next, end);
         std::fill(close.i.data() + (pair - begin), close.i.data() + (last - begin), row);
-        std::fill(excess.data() + (pair - begin), excess.data() + (last - begin), extent_[row]);
+        std::fill(extent_i.data() + (pair - begin), extent_i.data() + (last - begin), extent_[row]);
         pair = last;
     }
-    extents_less_gaps(end - begin, j_.data() + begin, gap_.data() + begin, extent_.data(), excess.data());
-    close.count = 0;
-    for (std::size_t k = 0; k < end - begin; ++k) {  // without a jump: it would be badly guessed
-        close.i[close.count] = close.i[k];
-        close.pair[close.count] = begin + k;
-        close.count += excess[k] >= 0 ? 1 : 0;
-    }
+    std::array<std::uint8_t, block_size> marks;
+    mark_close(end - begin, j_.data() + begin, gap_.data() + begin, extent_.data(), extent_i.data(), marks.data());
+    close.numbers = marked_numbers(end - begin, marks, close.room);
 }
 
 /// In no order of those of a row.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "jostle/contact/pair_contacts.hpp"
+#include "jostle/math/marked_numbers.hpp"
 #include "jostle/parallel/parallel_for.hpp"
 #include "jostle/rods/box.hpp"
 #include "jostle/rods/rods.hpp"
@@ -97,7 +98,7 @@ public:
     void for_close_pairs(std::size_t block, Found&& found) const {
         InBlock close;
         find_close_pairs(block, close);
-        for (std::size_t k = 0; k < close.count; ++k) found(close.i[k], close.pair[k]);
+        for (const std::uint16_t k : close.numbers) found(close.i[k], block * block_size + k);
     }
 
     /// Whether for_close_pairs did not name a pair before the list was widened; of any, if that built the list anew.
@@ -126,10 +127,10 @@ private:
     void build(const Rods& rods, const Box& box, double list_range, std::size_t own);
     void renumber_copies(std::int32_t copies);
 
-    struct InBlock {  ///< the close pairs of a block
-        std::size_t count = 0;
-        std::array<std::uint32_t, block_size> i;
-        std::array<std::size_t, block_size> pair;
+    struct InBlock {                              ///< pairs of a block
+        std::array<std::uint32_t, block_size> i;  ///< of all
+        std::array<std::uint16_t, block_size + 8> room;
+        std::span<const std::uint16_t> numbers;  ///< in the block, of those that are close; in `room`
     };
     void find_close_pairs(std::size_t block, InBlock& close) const;
     void list_partners();
