@@ -41,7 +41,7 @@ struct Batch {
     Row slack;      ///< lower bound of the gap after the known motion: the width of a slab with `normal`
     Row same_side;  ///< cosine of the angle between the lines of nearest points before and after that motion
     std::array<std::array<std::int16_t, size>, 3> normal;  ///< in units of normal_unit
-    std::array<std::uint8_t, size> inactive, doubtful;     ///< marks: by these bounds, or not
+    MarkedNumbers<size> inactive;                          ///< by these bounds
 };
 
 /// Beyond this cosine, rounding apart, rods have not passed through each other.
@@ -79,8 +79,7 @@ JOSTLE_VECTORISED void find_bounds(std::size_t count, float range, float margin,
     for (std::size_t k = 0; k < count; ++k) {
         const bool is_apart = batch.gap[k] - gap_error * batch.radii[k] > range;
         const bool is_clear = is_apart && batch.same_side[k] > clearly_same_side && batch.slack[k] >= margin;
-        batch.inactive[k] = is_clear ? 1 : 0;
-        batch.doubtful[k] = is_clear ? 0 : 1;
+        batch.inactive.marks()[k] = is_clear ? 1 : 0;
     }
 }
 
@@ -168,14 +167,13 @@ void CollisionSearch::search_blocks(const StepGeometry& step) {
 }
 
 void CollisionSearch::search_block(std::size_t block, const StepGeometry& step, Found& found) {
-    std::array<std::uint16_t, Batch::size + 8> room;
     std::size_t count = 0;
     Batch batch;
     const auto range = static_cast<float>(step.ranges.range),
                margin = static_cast<float>(step.ranges.activation_margin);
     const auto sort_out = [&] {
         find_bounds(count, range, margin, batch);
-        const auto inactive = marked_numbers(count, batch.inactive, room);
+        const auto inactive = batch.inactive.find(count);
         InactivePairs& pairs = found.inactive;
         std::size_t n = pairs.size();
         pairs.resize(n + inactive.size());
@@ -186,9 +184,10 @@ void CollisionSearch::search_block(std::size_t block, const StepGeometry& step, 
             pairs.slab[n] = {{batch.normal[0][k], batch.normal[1][k], batch.normal[2][k]}, batch.in_block[k]};
             ++n;
         }
-        for (const std::uint16_t k : marked_numbers(count, batch.doubtful, room))
-            narrow_phase(batch.i[k], key_of(block, batch.i[k], batch.in_block[k], step.rods), batch.in_block[k], step,
-                         found);
+        for (std::size_t k = 0; k < count; ++k)
+            if (batch.inactive.marks()[k] == 0)
+                narrow_phase(batch.i[k], key_of(block, batch.i[k], batch.in_block[k], step.rods), batch.in_block[k],
+                             step, found);
         count = 0;
     };
     neighbours_.for_close_pairs(block, [&](std::uint32_t row, std::size_t pair) {
@@ -290,11 +289,10 @@ void CollisionSearch::search_inactive(std::size_t block, GapAtEnd&& gap_at_end) 
     const auto [share, begin, end] = in_block_[block];
     InactivePairs& pairs = shares_[share].inactive;
     // Most have more left than any displacement since: those are passed over by this alone.
-    std::array<std::uint8_t, NeighbourList::block_size> marks;
-    std::array<std::uint16_t, NeighbourList::block_size + 8> room;
+    MarkedNumbers<NeighbourList::block_size> used_up;
     take_off_changes(end - begin, pairs.i.data() + begin, pairs.j.data() + begin, change_.data(),
-                     pairs.left.data() + begin, marks.data());
-    for (const std::uint16_t number : marked_numbers(end - begin, marks, room)) {
+                     pairs.left.data() + begin, used_up.marks());
+    for (const std::uint16_t number : used_up.find(end - begin)) {
         const std::size_t k = begin + number;
         pairs.left[k] = width_of_slab(pairs, k);
         if (pairs.left[k] <= 0.0F) pairs.left[k] = gap_at_end(pairs.i[k], pairs.slab[k].in_block);

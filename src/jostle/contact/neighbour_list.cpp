@@ -153,20 +153,21 @@ std::int32_t NeighbourList::in_units(double extent) const {
     return 1 + static_cast<std::int32_t>(std::min(extent * units_per_length_, 4.0 * units_per_list_range));
 }
 
-void NeighbourList::find_close_pairs(std::size_t block, InBlock& close) const {
+/// Their numbers in the block.
+std::span<const std::uint16_t> NeighbourList::find_close_pairs(std::size_t block, InBlock& pairs) const {
     const std::size_t begin = block * block_size, end = std::min(begin + block_size, size());
     std::array<std::int32_t, block_size> extent_i;
     auto next = std::upper_bound(begin_.begin(), begin_.end(), begin);
     for (std::size_t pair = begin; pair < end; ++next) {
         const auto row = static_cast<std::uint32_t>(next - begin_.begin() - 1);
         const std::size_t last = std::min(*next, end);
-        std::fill(close.i.data() + (pair - begin), close.i.data() + (last - begin), row);
+        std::fill(pairs.i.data() + (pair - begin), pairs.i.data() + (last - begin), row);
         std::fill(extent_i.data() + (pair - begin), extent_i.data() + (last - begin), extent_[row]);
         pair = last;
     }
-    std::array<std::uint8_t, block_size> marks;
-    mark_close(end - begin, j_.data() + begin, gap_.data() + begin, extent_.data(), extent_i.data(), marks.data());
-    close.numbers = marked_numbers(end - begin, marks, close.room);
+    mark_close(end - begin, j_.data() + begin, gap_.data() + begin, extent_.data(), extent_i.data(),
+               pairs.close.marks());
+    return pairs.close.find(end - begin);
 }
 
 /// In no order of those of a row.

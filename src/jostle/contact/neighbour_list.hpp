@@ -96,9 +96,8 @@ public:
     /// update. Most pairs of the list are passed over by what they were when the list was built.
     template <class Found>
     void for_close_pairs(std::size_t block, Found&& found) const {
-        InBlock close;
-        find_close_pairs(block, close);
-        for (const std::uint16_t k : close.numbers) found(close.i[k], block * block_size + k);
+        InBlock pairs;
+        for (const std::uint16_t k : find_close_pairs(block, pairs)) found(pairs.i[k], block * block_size + k);
     }
 
     /// Whether for_close_pairs did not name a pair before the list was widened; of any, if that built the list anew.
@@ -127,12 +126,11 @@ private:
     void build(const Rods& rods, const Box& box, double list_range, std::size_t own);
     void renumber_copies(std::int32_t copies);
 
-    struct InBlock {                              ///< pairs of a block
-        std::array<std::uint32_t, block_size> i;  ///< of all
-        std::array<std::uint16_t, block_size + 8> room;
-        std::span<const std::uint16_t> numbers;  ///< in the block, of those that are close; in `room`
+    struct InBlock {
+        std::array<std::uint32_t, block_size> i;
+        MarkedNumbers<block_size> close;
     };
-    void find_close_pairs(std::size_t block, InBlock& close) const;
+    std::span<const std::uint16_t> find_close_pairs(std::size_t block, InBlock& pairs) const;
     void list_partners();
 
     double skin_;

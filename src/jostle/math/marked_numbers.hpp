@@ -10,7 +10,7 @@
 
 namespace jostle {
 
-namespace marks {
+namespace eight_marks {
 
 /// Of eight marks, as the bits of a number: the places of those that are set come first, and how many there are.
 struct SetPlaces {
@@ -35,24 +35,32 @@ inline std::size_t as_bits(const std::uint8_t* eight) {
     return bytes * 0x0102'0408'1020'4080U >> 56U;  // byte k is moved to bit 56 + k; no two products meet
 }
 
-}  // namespace marks
+}  // namespace eight_marks
 
-/// The numbers k < count with marks[k] = 1, ascending, in `numbers`. Eight at a time and without a jump, which
-/// processors would guess badly. `marks`: 0 or 1; what follows the first `count` may be overwritten.
+/// Marks, 0 or 1, of up to `size`, and the numbers of those that are set.
 template <std::size_t size>
-std::span<const std::uint16_t> marked_numbers(std::size_t count, std::array<std::uint8_t, size>& marks,
-                                              std::array<std::uint16_t, size + 8>& numbers) {
-    static_assert(size % 8 == 0 && size <= 65536);
-    std::fill(marks.begin() + static_cast<std::ptrdiff_t>(count),
-              marks.begin() + static_cast<std::ptrdiff_t>((count + 7) / 8 * 8), std::uint8_t{0});
-    std::size_t found = 0;
-    for (std::size_t first = 0; first < count; first += 8) {
-        const std::size_t bits = marks::as_bits(marks.data() + first);
-        const auto& places = marks::set_places.places[bits];
-        for (std::size_t n = 0; n < 8; ++n) numbers[found + n] = static_cast<std::uint16_t>(first + places[n]);
-        found += marks::set_places.count[bits];
+class MarkedNumbers {
+public:
+    std::uint8_t* marks() { return marks_.data(); }
+
+    /// The numbers k < count with marks()[k] = 1, ascending. Eight at a time and without a jump, which processors would
+    /// guess badly. Marks from `count` on may be overwritten.
+    std::span<const std::uint16_t> find(std::size_t count) {
+        std::fill(marks() + count, marks() + (count + 7) / 8 * 8, std::uint8_t{0});
+        std::size_t found = 0;
+        for (std::size_t first = 0; first < count; first += 8) {
+            const std::size_t bits = eight_marks::as_bits(marks() + first);
+            const auto& places = eight_marks::set_places.places[bits];
+            for (std::size_t n = 0; n < 8; ++n) numbers_[found + n] = static_cast<std::uint16_t>(first + places[n]);
+            found += eight_marks::set_places.count[bits];
+        }
+        return std::span(numbers_).first(found);
     }
-    return std::span(numbers).first(found);
-}
+
+private:
+    static_assert(size % 8 == 0 && size <= 65536);
+    std::array<std::uint8_t, size> marks_;
+    std::array<std::uint16_t, size + 8> numbers_;  // eight are written where up to eight are found
+};
 
 }  // namespace jostle

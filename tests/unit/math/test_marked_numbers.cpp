@@ -12,11 +12,10 @@ namespace {
 constexpr std::size_t room_for = 64;
 
 std::vector<std::uint16_t> found(const std::vector<std::uint8_t>& marked) {
-    std::array<std::uint8_t, room_for> marks;
-    marks.fill(1);  // what follows the marks does not count
-    std::copy(marked.begin(), marked.end(), marks.begin());
-    std::array<std::uint16_t, room_for + 8> numbers;
-    const auto all = marked_numbers(marked.size(), marks, numbers);
+    MarkedNumbers<room_for> numbers;
+    std::fill(numbers.marks(), numbers.marks() + room_for, std::uint8_t{1});  // what follows the marks does not count
+    std::copy(marked.begin(), marked.end(), numbers.marks());
+    const auto all = numbers.find(marked.size());
     return {all.begin(), all.end()};
 }
 
