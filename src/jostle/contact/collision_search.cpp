@@ -27,7 +27,7 @@ std::int16_t in_normal_units(float component) {
 
 /// If not more than one of so many rods is displaced beyond the limit, their pairs are looked for one rod after the
 /// other, else all pairs are passed over.
-constexpr std::size_t rods_per_one_beyond = 50;
+constexpr std::size_t rods_per_one_beyond = 12;
 
 /// Pairs side by side, for vector instructions.
 struct Batch {

@@ -12,20 +12,21 @@ namespace jostle {
 
 namespace {
 
-// Lengths in mean diameters, chosen by the time of a step: they change speed, and results within the tolerance.
+// Lengths in mean diameters, chosen by the instructions of a step (decision 0081): they change speed, and results
+// within the tolerance.
 
 /// A pair whose gap after the known motion is wider than touching by this much is inactive; crowds push
 /// rods farther than noise would.
-constexpr double activation_margin_per_diameter = 0.02, activation_margin_in_a_crowd = 0.04;
-/// How far rods go before the neighbour list is built again: this at the default step, less at shorter ones (the
-/// shorter the step, the less often lists are built).
-constexpr double skin_per_diameter = 0.5, skin_per_length = 0.13, displacement_at_default_step = 0.07;
+constexpr double activation_margin_per_diameter = 0.006, activation_margin_in_a_crowd = 0.04;
+/// How far rods go before the neighbour list is built again: this where noise displaces them so far in a step, in the
+/// mean, less at shorter steps (the shorter the step, the less often lists are built).
+constexpr double skin_per_diameter = 0.5, skin_per_length = 0.13, displacement_with_that_skin = 0.12;
 /// Up to so many times as far at longer steps, where fewer than a crowd fill a volume of (L + D)^3: it is rods more
 /// than pairs that a list costs time for then.
 constexpr double crowd = 3.0, max_skin_when_dilute = 2.0;
 /// How far forces may displace rods before all their neighbours are looked at: at most so far, and so many mean
 /// Brownian displacements, for these bring rods together. Without noise, and in crowds, displacements add up.
-constexpr double max_displacement_limit = 0.2, limit_per_displacement = 3.0;
+constexpr double max_displacement_limit = 0.2, limit_per_displacement = 2.0;
 
 /// Over the rods of all ranks, so many.
 double mean_of(const std::vector<double>& values, const Domain& domain, std::size_t rods) {
@@ -55,7 +56,7 @@ SearchRanges search_ranges(const State& state, double displacement, const SizeBo
         max_skin = std::clamp(std::sqrt(crowd / near), 1.0, max_skin_when_dilute);
     }
     ranges.skin *=
-        std::min(max_skin, std::pow(displacement / (displacement_at_default_step * mean_diameter), 2.0 / 3.0));
+        std::min(max_skin, std::pow(displacement / (displacement_with_that_skin * mean_diameter), 2.0 / 3.0));
     return ranges;
 }
 
