@@ -177,7 +177,7 @@ TEST_CASE("rods: the same bits after 30 steps with 1, 2 and 4 threads") {
 }
 
 TEST_CASE("spheres: the same bits after 30 steps with 1, 2 and 4 threads") {
-    check_steps_with_every_thread_count(crowd(crowd_count, 0.0, 0.3));
+    check_steps_with_every_thread_count(crowd(crowd_count, 0.0, 0.4));
 }
 
 TEST_CASE("a monolayer: the same bits after 30 steps with 1, 2 and 4 threads") {
