@@ -205,8 +205,9 @@ TEST_CASE("Monte Carlo has the same bits with 1, 2 and 4 threads, which move rod
     Scene scene = crowd(crowd_count, 1.0, 0.3);  // boxes of six to nine times the range of a rod
     const auto moved = [&](int threads) {
         const ThreadCount thread_count(threads);
-        Rods rods = scattered_rods(scene, cube_of(scene), std::nullopt);
-        MonteCarlo monte_carlo(rods, cube_of(scene), scene.seed);
+        const Box box = cube_of(scene);
+        Rods rods = scattered_rods(scene, box, std::nullopt);
+        MonteCarlo monte_carlo(rods, box, scene.seed);
         for (int k = 1; k <= (under_thread_sanitizer ? 1 : 10); ++k) monte_carlo.sweep(0.3 * k, 4);
         return std::pair(rods, monte_carlo.overlapping_rods());
     };
