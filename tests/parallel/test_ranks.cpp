@@ -357,7 +357,7 @@ TEST_CASE("rods that overlap far at the start: forces take them beyond the neigh
 }
 
 TEST_CASE("ranks that exchange velocities more seldom wait less often") {
-    const Scene scene = crowd(200, 3.0, 0.3);
+    const Scene scene = crowd(200, 3.0, 0.4);
     const State start = start_of(scene);
     const auto exchanges = [&](std::size_t colours) {
         Traffic traffic;
