@@ -34,7 +34,7 @@ class Told:
     time_step: float
     steps: float
     seconds: float    # on one thread
-    rods: float
+    rods: float       # in the end, where they grow and divide; else at the start
 
 
 @dataclasses.dataclass
@@ -84,7 +84,9 @@ def ask(jostle, scene, *words):
         words = done.stderr.strip() or f"jostle check ended with status {done.returncode}"
         raise BadScene(words[("\n" + words).rfind("\njostle: "):].removeprefix("jostle: ") if "jostle: " in words else words.splitlines()[-1])
     resolved, _, follows = done.stdout.partition("\n# what follows from it\n")
-    told = Told(resolved, *(number_after(follows, label) for label in ("time step", "steps", "time on one thread, about", "N")))
+    time_step, steps, seconds, first, last = (number_after(follows, label) for label in
+                                              ("time step", "steps", "time on one thread, about", "N", "N in the end, about"))
+    told = Told(resolved, time_step, steps, seconds, last if last > first else first)
     step = tomllib.loads(resolved)["time"].get("step", "auto")
     if step != "auto":
         told.time_step = step  # in the scene's own unit, where cells grow, too

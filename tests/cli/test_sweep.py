@@ -25,6 +25,7 @@ import extrapolate  # noqa: E402  (the path comes first)
 import points  # noqa: E402
 import refusal  # noqa: E402
 import replicas  # noqa: E402
+import side_by_side  # noqa: E402
 from weighted_fit import WeightedFit  # noqa: E402
 
 SPHERES = {
@@ -360,6 +361,17 @@ def values_of(text):
     """[(mean, error)] of lines that begin with Z or a volume fraction, by that word."""
     lines = re.findall(r"^ *(Z|0\.\d+) +(\d[\d.]* \+- .*)$", text, re.MULTILINE)
     return {name: [(float(mean), float(error)) for mean, error in re.findall(r"([\d.]+) \+- ([\d.]+)", rest)] for name, rest in lines}
+
+
+def test_the_rods_that_threads_are_given_for(tmp_path):
+    """Those of the end, where cells divide: a colony begins as one."""
+    def rods(scene):
+        write_scene(tmp_path, scene)
+        return side_by_side.ask(JOSTLE, tmp_path / "scene.toml").rods
+    cells = changed(SPHERES, rods={"count": 50, "length": 1.0}, box={"volume_fraction": 0.02}, growth={"rate": 0.5, "division_length": 3.0},
+                    time={"rms_step": None, "step": 0.01, "production": 8.0, "equilibration": 0.0})
+    assert rods(SPHERES) == 64 and rods(cells) == 200
+    assert rods(changed(cells, time={"production": 1e6})) == 50  # more than can be told
 
 
 def test_the_guide(tmp_path):
