@@ -265,7 +265,7 @@ TEST_CASE("a crowd large enough for momentum") {
     Scene scene = crowd(12000, 2.0, 0.56);
     scene.rods.start = StartKind::aligned;
     scene.motion.brownian = false;
-    scene.growth.rate = 1.0;
+    scene.growth.rate = 3.0;
     scene.growth.division_length = 3.5;
     scene.solver.warm_start = WarmStarts::always;
     scene.solver.tolerance = 1e-3;

@@ -1,7 +1,6 @@
 #include "jostle/contact_problem/block_gauss_seidel.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <utility>
 
 #include "jostle/parallel/parallel_for.hpp"
@@ -15,8 +14,6 @@ namespace {
 constexpr double activation_tolerances = 100.0;
 /// A gap velocity that changes by less than this part of the tolerance is the same to the contacts around.
 constexpr double still_part = 0.1;
-/// What is added up of a sweep with momentum is counted in this part of the largest change squared.
-constexpr double turning_unit = 1e-9;
 
 /// Whether a new contact takes part from the first sweep on: pairs that touch at several points always do.
 template <class Real>
@@ -50,7 +47,8 @@ void BlockGaussSeidel<Real>::set_tolerance(double tolerance) {
 
 template <class Real>
 void BlockGaussSeidel<Real>::extend() {
-    velocities_.resize(local_count_);  // without those of other ranks' rods, whose contacts are borrowed
+    for (auto* velocities : {&velocities_, &former_velocities_})
+        velocities->resize(local_count_);  // without those of other ranks' rods, whose contacts are borrowed
     local_count_ = matrix_.rods().size();
     velocities_.resize(local_count_);
     const Domain& domain = problem_.domain();
@@ -169,17 +167,17 @@ void BlockGaussSeidel<Real>::append_between_ranks(Colour& colour, std::span<cons
     append(colour.elsewhere, elsewhere);
 }
 
-/// Calls counted(group) for the contacts of a colour that are added up here, and other(group) for those that are not;
-/// for this rank's own rods while velocities of other ranks' rods travel.
+/// Calls body(group) for the contacts of a colour; for this rank's own rods while velocities of other ranks' rods
+/// travel.
 template <class Real>
-template <class Body, class OtherBody>
-void BlockGaussSeidel<Real>::for_contacts(Colour& colour, Body&& counted, OtherBody&& other) {
+template <class Body>
+void BlockGaussSeidel<Real>::for_contacts(Colour& colour, Body&& body) {
     colour.messages.begin(std::span<const SpatialVector<Real>>(velocities_));
-    colour.inner.for_groups(counted);
+    colour.inner.for_groups(body);
     colour.messages.end(std::span(velocities_));
-    colour.border.for_groups(counted);
-    colour.elsewhere.for_groups(other);
-    colour.borrowed.for_groups(other);
+    colour.border.for_groups(body);
+    colour.elsewhere.for_groups(body);
+    colour.borrowed.for_groups(body);
 }
 
 template <class Real>
@@ -198,7 +196,7 @@ double BlockGaussSeidel<Real>::sweep(double omega, SweepOver over) {
                      }));
     };
     for (Colour& colour : colours_) {
-        for_contacts(colour, pass, pass);
+        for_contacts(colour, pass);
         largest = std::max(largest, sweep_at_plane(colour, by));
     }
     if (all) {
@@ -220,29 +218,19 @@ void BlockGaussSeidel<Real>::note_stirred_rods() {
 }
 
 template <class Real>
-SweepProgress BlockGaussSeidel<Real>::sweep_on(double beta, double last_change) {
+double BlockGaussSeidel<Real>::sweep_on(double beta) {
     carry_on_velocities(beta);
     stir_all();
-    const Extrapolation by{beta, turning_unit * last_change * last_change};
-    std::atomic<std::int64_t> turning = 0, turning_elsewhere = 0;
     double largest = 0.0;
-    const auto pass_and_add = [&](auto& group, std::atomic<std::int64_t>& turned) {
+    const auto pass = [&](auto& group) {
         group.last.resize(group.items.size());
         const auto sweep_block = [&](std::size_t number) {
-            const auto items = group.block(number);
-            const auto last = std::span(group.last).subspan(number * group.block_size, items.size());
-            const SweepProgress progress = jostle::sweep_on(items, last, by, local_rods());
-            turned += progress.turning;
-            return progress.change;
+            return jostle::sweep_on(group.block(number), group.block_of(group.last, number), beta, local_rods());
         };
         largest = std::max(largest, parallel_max_of_blocks(group.active.size(), group.items.size(), sweep_block));
     };
-    for (Colour& colour : colours_)
-        for_contacts(
-            colour, [&](auto& group) { pass_and_add(group, turning); },
-            [&](auto& group) { pass_and_add(group, turning_elsewhere); });
-    const Ranks& ranks = problem_.domain().ranks();
-    return {ranks.largest(largest), ranks.sum(turning)};
+    for (Colour& colour : colours_) for_contacts(colour, pass);
+    return problem_.domain().ranks().largest(largest);
 }
 
 /// V is linear in the forces: what the last change of all of them did to it is done again, `beta` times.
@@ -299,6 +287,7 @@ void BlockGaussSeidel<Real>::append(ContactGroup<Item>& group, std::span<const C
     const std::size_t before = group.items.size();
     group.items.resize(before + pairs.size());
     group.visits.resize(group.items.size());
+    if (!group.last.empty()) group.last.resize(group.items.size());
     parallel_for(pairs.size(), [&](std::size_t n) {
         group.items[before + n] = item_of(pairs[n]);
         group.visits[before + n] = {pairs[n].i == no_local_index ? pairs[n].j : pairs[n].i, pairs[n].j};

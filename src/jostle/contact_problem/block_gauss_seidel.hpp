@@ -44,9 +44,8 @@ public:
     void stir_all() { all_are_stirred_ = true; }
 
     /// One pass over all, not over-relaxed, from where the last change of all forces would lead if it were made again,
-    /// `beta` times; 0 after `extend` or another sweep. `last_change`: what the last pass returned, not 0. Not where
-    /// contacts push a plane.
-    SweepProgress sweep_on(double beta, double last_change);
+    /// `beta` times; 0 after another sweep. Returns what `sweep` does. Not where contacts push a plane.
+    double sweep_on(double beta);
 
     /// Fills in the velocities, of the rods and of the box, as the sweeps have left them.
     void read_velocities(ContactSolution& solution) const;
@@ -72,8 +71,8 @@ private:
     }
     void plan_messages();
     LocalRods<Real> local_rods();
-    template <class Body, class OtherBody>
-    void for_contacts(Colour& colour, Body&& counted, OtherBody&& other);
+    template <class Body>
+    void for_contacts(Colour& colour, Body&& body);
     template <class Item>
     void find_active(ContactGroup<Item>& group);
     double sweep_at_plane(Colour& colour, const Relaxation& by);

@@ -28,6 +28,7 @@ struct Request {
 template <class Item>
 struct Loan {
     Item item;
+    typename Item::Forces last;
     float solved;
     bool is_active;
     std::uint32_t colour;
@@ -130,7 +131,8 @@ private:
         const Item& item = group.items[place.number];
         const Visit& visit = group.visits[place.number];
         const std::uint32_t contact = first_contact(item);
-        loans.of(item).push_back({item, visit.solved, group.is_active(place.number), place.colour,
+        const auto last = group.last.empty() ? typename Item::Forces{} : group.last[place.number];
+        loans.of(item).push_back({item, last, visit.solved, group.is_active(place.number), place.colour,
                                   name(contact, visit.i), name(contact, visit.j), matrix_.rods()[visit.i],
                                   matrix_.rods()[visit.j]});
     }
@@ -277,6 +279,7 @@ private:
     static void append(const Loan<Item>& loan, ContactGroup<Item>& group) {
         const bool has_other_rod = loan.item.i != no_local_index;
         group.items.push_back(loan.item);
+        group.last.push_back(loan.last);
         group.visits.push_back({has_other_rod ? loan.item.i : loan.item.j, loan.item.j, loan.solved});
         group.all_active += loan.is_active ? 1 : 0;
     }

@@ -22,8 +22,8 @@ struct Borrowed {
 /// Some colours that follow each other are a phase. It begins with the velocities of the other ranks' rods that its
 /// pairs share. A pair of a later colour in the phase needs the velocity that such a rod has then: so all pairs of that
 /// rod of earlier colours in the phase are solved here, too, and for those the same is needed of their other rods, and
-/// so on. A rank is told of these pairs as they are, forces included. It makes of them what the ranks make that have
-/// their rods: the same bits by the same arithmetic.
+/// so on. A rank is told of these pairs as they are, forces and what the last sweep changed of them included. It makes
+/// of them what the ranks make that have their rods: the same bits by the same arithmetic.
 ///
 /// Fills `borrowed` and `messages` of the colours anew. All ranks call it together, when all have made the same sweeps.
 template <class Real>

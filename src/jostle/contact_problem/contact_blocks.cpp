@@ -83,52 +83,36 @@ double solve_all(std::span<Item> items, std::span<Visit> visits, const Relaxatio
     return largest;
 }
 
-/// A product of two changes in whole units; none is so many that the sum over all contacts would not fit.
-std::int64_t in_units(double product, double unit) {
-    constexpr double most = 1e12;
-    return static_cast<std::int64_t>(std::max(-most, std::min(most, product / unit)));
-}
-
 /// Each moves its forces on by beta times their last change, solves its own contact problem from there, and returns
 /// what that was.
 template <class Real>
-SweepProgress move_on(ScalarBlock<Real>& contact, Real& last, const Extrapolation& by,
-                      const LocalRods<Real>& local_rods) {
-    const Real before = contact.gamma, start = before + static_cast<Real>(by.beta) * last;
-    contact.gamma = start;
+double move_on(ScalarBlock<Real>& contact, Real& last, double beta, const LocalRods<Real>& local_rods) {
+    const Real before = contact.gamma;
+    contact.gamma += static_cast<Real>(beta) * last;
     const double change = solve(contact, 1.0, local_rods);
     last = contact.gamma - before;
-    const double taken = contact.diagonal * (start - contact.gamma), added = contact.diagonal * last;
-    return {change, in_units(taken * added, by.unit)};
+    return change;
 }
 
 template <class Real>
-SweepProgress move_on(CoupledBlock& pair, Points& last, const Extrapolation& by, const LocalRods<Real>& local_rods) {
-    Points before{}, start{};
+double move_on(CoupledBlock& pair, Points& last, double beta, const LocalRods<Real>& local_rods) {
+    Points before{};
     for (std::uint32_t a = 0; a < pair.count; ++a) {
         before[a] = pair.points[a].gamma;
-        start[a] = pair.points[a].gamma = before[a] + by.beta * last[a];
+        pair.points[a].gamma += beta * last[a];
     }
     const double change = solve(pair, 1.0, local_rods);
-    double product = 0.0;
-    for (std::uint32_t a = 0; a < pair.count; ++a) {
-        const double gamma = pair.points[a].gamma, diagonal = pair.matrix[a][a];
-        last[a] = gamma - before[a];
-        product += diagonal * (start[a] - gamma) * diagonal * last[a];
-    }
-    return {change, in_units(product, by.unit)};
+    for (std::uint32_t a = 0; a < pair.count; ++a) last[a] = pair.points[a].gamma - before[a];
+    return change;
 }
 
 template <class Item, class Real>
-SweepProgress move_all_on(std::span<Item> items, std::span<typename Item::Forces> last, const Extrapolation& by,
-                          const LocalRods<Real>& local_rods) {
-    SweepProgress all;
-    for (std::size_t k = 0; k < items.size(); ++k) {
-        const SweepProgress one = move_on(items[k], last[k], by, local_rods);
-        all.change = std::max(all.change, one.change);
-        all.turning += one.turning;
-    }
-    return all;
+double move_all_on(std::span<Item> items, std::span<typename Item::Forces> last, double beta,
+                   const LocalRods<Real>& local_rods) {
+    double change = 0.0;
+    for (std::size_t k = 0; k < items.size(); ++k)
+        change = std::max(change, move_on(items[k], last[k], beta, local_rods));
+    return change;
 }
 
 }  // namespace
@@ -151,21 +135,21 @@ JOSTLE_VECTORISED double sweep_over(std::span<CoupledBlock> pairs, std::span<Vis
     return solve_all(pairs, visits, by, local_rods);
 }
 
-JOSTLE_VECTORISED SweepProgress sweep_on(std::span<ScalarBlock<float>> contacts, std::span<float> last,
-                                         const Extrapolation& by, const LocalRods<float>& local_rods) {
-    return move_all_on(contacts, last, by, local_rods);
+JOSTLE_VECTORISED double sweep_on(std::span<ScalarBlock<float>> contacts, std::span<float> last, double beta,
+                                  const LocalRods<float>& local_rods) {
+    return move_all_on(contacts, last, beta, local_rods);
 }
-JOSTLE_VECTORISED SweepProgress sweep_on(std::span<ScalarBlock<double>> contacts, std::span<double> last,
-                                         const Extrapolation& by, const LocalRods<double>& local_rods) {
-    return move_all_on(contacts, last, by, local_rods);
+JOSTLE_VECTORISED double sweep_on(std::span<ScalarBlock<double>> contacts, std::span<double> last, double beta,
+                                  const LocalRods<double>& local_rods) {
+    return move_all_on(contacts, last, beta, local_rods);
 }
-JOSTLE_VECTORISED SweepProgress sweep_on(std::span<CoupledBlock> pairs, std::span<Points> last, const Extrapolation& by,
-                                         const LocalRods<float>& local_rods) {
-    return move_all_on(pairs, last, by, local_rods);
+JOSTLE_VECTORISED double sweep_on(std::span<CoupledBlock> pairs, std::span<Points> last, double beta,
+                                  const LocalRods<float>& local_rods) {
+    return move_all_on(pairs, last, beta, local_rods);
 }
-JOSTLE_VECTORISED SweepProgress sweep_on(std::span<CoupledBlock> pairs, std::span<Points> last, const Extrapolation& by,
-                                         const LocalRods<double>& local_rods) {
-    return move_all_on(pairs, last, by, local_rods);
+JOSTLE_VECTORISED double sweep_on(std::span<CoupledBlock> pairs, std::span<Points> last, double beta,
+                                  const LocalRods<double>& local_rods) {
+    return move_all_on(pairs, last, beta, local_rods);
 }
 
 }  // namespace jostle

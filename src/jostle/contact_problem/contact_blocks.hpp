@@ -148,30 +148,14 @@ double sweep_over(std::span<CoupledBlock> pairs, std::span<Visit> visits, const 
 double sweep_over(std::span<CoupledBlock> pairs, std::span<Visit> visits, const Relaxation& by,
                   const LocalRods<double>& local_rods);
 
-/// Where a sweep with momentum begins: `beta` times the change of all forces by the last sweep farther on.
-struct Extrapolation {
-    double beta = 0.0;
-    double unit = 0.0;  ///< of products of two changes of gap velocities, in which they are added up as whole numbers
-};
-
-/// How a sweep went.
-struct SweepProgress {
-    double change = 0.0;  ///< of a gap velocity by the contact's own force, at most
-    /// Sum over the contacts of (A_ll times what the sweep took from the extrapolated force) (A_ll times what it
-    /// added to the former one), in whole units: above 0 where the sweep turns back. The order of whole numbers does
-    /// not matter to their sum.
-    std::int64_t turning = 0;
-};
-
 /// The same sweep, not over-relaxed, from forces gamma + beta `last`, to which the velocities have been carried on
 /// already. `last`: one a contact, by what its forces changed in the last sweep, and then in this.
-SweepProgress sweep_on(std::span<ScalarBlock<float>> contacts, std::span<float> last, const Extrapolation& by,
-                       const LocalRods<float>& local_rods);
-SweepProgress sweep_on(std::span<ScalarBlock<double>> contacts, std::span<double> last, const Extrapolation& by,
-                       const LocalRods<double>& local_rods);
-SweepProgress sweep_on(std::span<CoupledBlock> pairs, std::span<Points> last, const Extrapolation& by,
-                       const LocalRods<float>& local_rods);
-SweepProgress sweep_on(std::span<CoupledBlock> pairs, std::span<Points> last, const Extrapolation& by,
-                       const LocalRods<double>& local_rods);
+double sweep_on(std::span<ScalarBlock<float>> contacts, std::span<float> last, double beta,
+                const LocalRods<float>& local_rods);
+double sweep_on(std::span<ScalarBlock<double>> contacts, std::span<double> last, double beta,
+                const LocalRods<double>& local_rods);
+double sweep_on(std::span<CoupledBlock> pairs, std::span<Points> last, double beta, const LocalRods<float>& local_rods);
+double sweep_on(std::span<CoupledBlock> pairs, std::span<Points> last, double beta,
+                const LocalRods<double>& local_rods);
 
 }  // namespace jostle

@@ -22,7 +22,7 @@ struct ContactGroup {
     static constexpr std::size_t block_size = 128;
     std::vector<Item> items;
     std::vector<Visit> visits;                ///< (items)
-    std::vector<typename Item::Forces> last;  ///< (items) by what the last `sweep_on` changed their forces
+    std::vector<typename Item::Forces> last;  ///< (items) by what the last `sweep_on` changed their forces; or none
     std::vector<std::uint8_t> active;         ///< (blocks) how many are
     std::size_t all_active = 0;
 
@@ -51,6 +51,7 @@ struct ContactGroup {
                                     if (front != k) {
                                         std::swap(in_block[front], in_block[k]);
                                         std::swap(visits[begin + front], visits[begin + k]);
+                                        if (!last.empty()) std::swap(last[begin + front], last[begin + k]);
                                     }
                                     ++front;
                                 }

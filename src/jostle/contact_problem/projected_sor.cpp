@@ -34,8 +34,9 @@ constexpr double finest_with_momentum = 2e-3;
 /// With momentum, first where the largest change is this part of that of the first sweep, then whenever it has fallen
 /// to this part, last at so many tolerances.
 constexpr double first_search_part = 0.1, next_search_part = 0.3, last_search_tolerances = 2.0;
-/// Beginning warm, candidates from so many tolerances on are nearly the solution.
-constexpr double near_tolerances = 10.0;
+/// Beginning warm, candidates from so many tolerances on are nearly the solution. With momentum single contacts still
+/// change by more.
+constexpr double near_tolerances = 10.0, near_tolerances_with_momentum = 30.0;
 /// With momentum single contacts change by several times what the residual is: it is computed from this many
 /// tolerances on.
 constexpr double early_verification_tolerances = 3.0;
@@ -74,7 +75,6 @@ public:
     /// With the constants that the problem has now, from no forces. `verify_first`: before any sweep.
     void begin_again(bool verify_first) {
         gauss_seidel_.begin_again(settings_.tolerance);
-        momentum_.restart();
         warm_ = may_have_momentum_ = at_candidate_ = sweep_all_ = is_near_ = found_more_ = false;
         verify_first_ = verify_first;
         begun_ = outcome_.iterations;
@@ -88,7 +88,7 @@ public:
     End run(bool grown) {
         if (grown) {
             gauss_seidel_.extend();
-            momentum_.restart();
+            momentum_.expect_larger_changes();
             found_more_ = true;
         }
         bool sweep_is_judged = !std::exchange(at_candidate_, false) || grown;
@@ -128,7 +128,10 @@ public:
     }
 
     /// Whether the last sweep changed no gap by much.
-    bool is_near_solution() const { return warm_ && change_ <= near_tolerances * settings_.tolerance; }
+    bool is_near_solution() const {
+        const double near = has_momentum() ? near_tolerances_with_momentum : near_tolerances;
+        return warm_ && change_ <= near * settings_.tolerance;
+    }
 
 private:
     void sweep() {
@@ -137,9 +140,8 @@ private:
     }
 
     double sweep_on() {
-        const double last_change = change_ > 0.0 ? change_ / problem_.time_step() : 1.0;
-        const auto [change, turning] = gauss_seidel_.sweep_on(momentum_.beta(), last_change);
-        momentum_.advance(change, turning > 0);
+        const double change = gauss_seidel_.sweep_on(momentum_.beta());
+        momentum_.advance(change);
         return change;
     }
 
