@@ -49,11 +49,11 @@ Json pressure_control_entry(const SummarisedRun& run) {
     const std::vector<double> volume = run.column("volume");
     Json entry = {{"external", {{"value", *scene.pressure.external}, {"unit", unit_of(scene, dimension::stress)}}},
                   {"volume_fraction", described(run.average_of("phi"), "")},
-                  {"volume", described(average(volume), unit_of(scene, dimension::volume))}};
+                  {"volume", described(run.average_of(volume), unit_of(scene, dimension::volume))}};
     if (kT > 0.0 && !has_piston(scene)) {
         std::vector<double> factor = volume;
         for (double& value : factor) value = *scene.pressure.external * value / (rods * kT);
-        entry["Z"] = described(average(factor), "");
+        entry["Z"] = described(run.average_of(factor), "");
         entry["compressibility"] = compressibility_entry(volume, kT);
     }
     if (kT > 0.0) entry["held_back"] = column_mean(run.column("held_back"));

@@ -45,7 +45,8 @@ void add_active_stress(const SummarisedRun& run, Json& summary) {
             "The run is shorter than output.active_stress_lag: displacements are not old enough.";
         return;
     }
-    summary["stress_active"] = tensor_entry(window_columns(series, first, active_stress_column_names), unit);
+    summary["stress_active"] = tensor_entry(window_columns(series, first, active_stress_column_names), unit,
+                                            [](const auto& rows) { return average(rows); });
 }
 
 /// A stress along a fixed direction, row by row.
@@ -58,22 +59,22 @@ std::vector<double> along_rows(const Columns& stress, const Vec3& direction) {
 }
 
 /// Eigenvalues of the mean stress, ascending, each with the error of the stress along its eigenvector.
-Json mean_principal_stresses(const Columns& stress, const std::string& unit, int dimensions) {
+Json mean_principal_stresses(const SummarisedRun& run, const Columns& stress) {
     std::array<double, 9> mean{};
     for (std::size_t k = 0; k < 9; ++k) mean[k] = column_mean(stress[k]);
-    const PrincipalStresses principal = principal_stresses(stress_of(mean), dimensions);
+    const PrincipalStresses principal = principal_stresses(stress_of(mean), run.dimensions());
     Json means = Json::array(), errors = Json::array();
     for (std::size_t k = 0; k < principal.values.size(); ++k) {
         means.push_back(principal.values[k]);
-        errors.push_back(optional_number(average(along_rows(stress, principal.directions[k])).standard_error));
+        errors.push_back(optional_number(run.average_of(along_rows(stress, principal.directions[k])).standard_error));
     }
     std::vector<double> difference = along_rows(stress, principal.directions.back());
     const std::vector<double> least = along_rows(stress, principal.directions.front());
     for (std::size_t row = 0; row < difference.size(); ++row) difference[row] -= least[row];
-    const Average spread = average(difference);
+    const Average spread = run.average_of(difference);
     return {{"mean", means},
             {"standard_error", errors},
-            {"unit", unit},
+            {"unit", run.stress_unit},
             {"differ", spread.standard_error ? Json(spread.mean > distinct * *spread.standard_error) : Json(nullptr)}};
 }
 
@@ -92,7 +93,7 @@ Json fixed_rods_entry(const SummarisedRun& run) {
     const Rods& fixed = *box.fixed_rods();
     Json means = Json::array(), errors = Json::array();
     for (const std::vector<double>& along : run.columns(fixed_rod_force_column_names)) {
-        const Average each = average(along);
+        const Average each = run.average_of(along);
         means.push_back(each.mean);
         errors.push_back(optional_number(each.standard_error));
     }
@@ -115,23 +116,23 @@ void add_stresses_of_what_acts(const SummarisedRun& run, Json& summary) {
     const std::string& unit = run.stress_unit;
     if (run.has_springs()) {
         summary["pressure_springs"] = described(run.average_of("pressure_springs"), unit);
-        summary["stress_springs"] = tensor_entry(run.columns(spring_stress_column_names), unit);
+        summary["stress_springs"] = run.stress_entry(run.columns(spring_stress_column_names));
     }
     if (run.scene.pressure.external) summary["pressure_control"] = pressure_control_entry(run);
     if (run.simulation.box().fixed_rods()) summary["fixed_rods"] = fixed_rods_entry(run);
-    if (has_torques(run.scene)) summary["stress_torques"] = tensor_entry(run.columns(torque_stress_column_names), unit);
+    if (has_torques(run.scene)) summary["stress_torques"] = run.stress_entry(run.columns(torque_stress_column_names));
     if (swims(run.scene)) add_active_stress(run, summary);
     if (stirs(run.scene))
         for (const auto& [name, columns] : {std::pair{"stress_dipoles", dipole_stress_column_names},
                                             std::pair{"stress_thermal", thermal_stress_column_names}})
-            summary[name] = tensor_entry(symmetric_columns(run.series, run.first(), columns), unit);
+            summary[name] = run.stress_entry(symmetric_columns(run.series, run.first(), columns));
 }
 
 void add_conventions(const SummarisedRun& run, Json& summary) {
     for (const auto& [name, columns] : {std::pair{"centre_of_mass", centre_of_mass_column_names},
                                         std::pair{"centre_line", centre_line_column_names}}) {
         const Columns other = run.columns(columns);
-        summary["stress_conventions"][name] = tensor_entry(other, run.stress_unit);
+        summary["stress_conventions"][name] = run.stress_entry(other);
         summary["stress_conventions"][name]["anisotropy"] =
             described(jackknife(other, eigenvalue_ratio_in(run.dimensions())));
     }
@@ -147,20 +148,20 @@ void add_stresses(const SummarisedRun& run, Json& summary) {
         summary[group.column] = described(run.average_of(group.column), unit);
     summary["pressure"] = described(run.average_of("pressure"), unit);
     summary["pressure_collision"] = described(run.average_of("pressure_collision"), unit);
-    summary["stress"] = tensor_entry(run.stress, unit);
+    summary["stress"] = run.stress_entry(run.stress);
     summary["stress"]["definition"] =
         fmt::format("kinetic + orientation + collision{}{}", run.has_springs() ? " + springs" : "",
                     has_torques(run.scene) ? " + torques" : "");
     add_kinetic_stress(run, summary);
-    summary["stress_orientation"] = tensor_entry(orientation_stress_columns(run.series, run.first()), unit);
-    summary["stress_collision"] = tensor_entry(run.collision, unit);
+    summary["stress_orientation"] = run.stress_entry(orientation_stress_columns(run.series, run.first()));
+    summary["stress_collision"] = run.stress_entry(run.collision);
     add_stresses_of_what_acts(run, summary);
 }
 
 void add_principal_stresses(const SummarisedRun& run, Json& summary) {
     const int dimensions = run.dimensions();
-    summary["principal_stresses"] = mean_principal_stresses(run.stress, run.stress_unit, dimensions);
-    summary["principal_stresses_collision"] = mean_principal_stresses(run.collision, run.stress_unit, dimensions);
+    summary["principal_stresses"] = mean_principal_stresses(run, run.stress);
+    summary["principal_stresses_collision"] = mean_principal_stresses(run, run.collision);
     if (run.scene.output.stress_conventions) add_conventions(run, summary);
     summary["nematic_order"] = described(run.average_of("nematic_order"), "");
     const Vec3 director = mean_director(run.order).direction;

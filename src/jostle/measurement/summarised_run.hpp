@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "jostle/measurement/production_window.hpp"
@@ -22,6 +23,7 @@ struct SummarisedRun {
     std::string stress_unit;
     Columns stress, collision;  ///< (9) of the whole stress and of the collision stress, in the window
     Columns order;              ///< (6) of the order tensor
+    std::optional<SlowColumn> slow_order;
 
     std::size_t first() const { return window.first_row; }
     int dimensions() const { return simulation.box().dimensions(); }
@@ -29,7 +31,15 @@ struct SummarisedRun {
     bool has_springs() const { return !scene.springs.file.empty(); }
     std::vector<double> column(const std::string& name) const { return from_row(series.column(name), first()); }
     Columns columns(std::span<const char* const> names) const { return window_columns(series, first(), names); }
-    Average average_of(const std::string& name) const { return average(column(name)); }
+    /// Of rows of the window, which may follow the order.
+    Average average_of(const std::vector<double>& rows) const {
+        return slow_order ? average(rows, *slow_order) : average(rows);
+    }
+    Average average_of(const std::string& name) const { return average_of(column(name)); }
+    /// Of nine columns in the window.
+    nlohmann::ordered_json stress_entry(const Columns& tensor) const {
+        return tensor_entry(tensor, stress_unit, [this](const auto& rows) { return average_of(rows); });
+    }
 };
 
 }  // namespace jostle

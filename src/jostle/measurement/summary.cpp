@@ -7,6 +7,7 @@
 
 #include "jostle/error/input_error.hpp"
 #include "jostle/measurement/flow_summary.hpp"
+#include "jostle/measurement/slow_order.hpp"
 #include "jostle/measurement/stress_columns.hpp"
 #include "jostle/measurement/stress_summary.hpp"
 #include "jostle/measurement/summary_checks.hpp"
@@ -53,6 +54,11 @@ ProductionWindow window_of(const Scene& scene, const Simulation& simulation, con
     return window;
 }
 
+/// The time of a row; the first one begins at `begin`.
+double row_time(const SeriesTable& series, double begin) {
+    return (series.column("time").back() - begin) / static_cast<double>(series.rows());
+}
+
 SummarisedRun summarised(const Scene& scene, const Simulation& simulation, const SeriesTable& series, double begin) {
     if (simulation.rods().size() == 0) refuse_to_average("all cells have died", "");
     if (series.rows() == 0) refuse_to_average("the series has no row yet", "Make more steps");
@@ -70,7 +76,8 @@ SummarisedRun summarised(const Scene& scene, const Simulation& simulation, const
             .stress = total_stress_columns(series, first, !scene.springs.file.empty(), has_torques(scene),
                                            simulation.box().dimensions()),
             .collision = window_columns(series, first, stress_column_names),
-            .order = window_columns(series, first, order_tensor_column_names)};
+            .order = window_columns(series, first, order_tensor_column_names),
+            .slow_order = slow_order(window, series, row_time(series, begin), simulation.box().dimensions())};
 }
 
 /// What was simulated, and for how long.
@@ -99,10 +106,8 @@ void add_flow(const SummarisedRun& run, Json& summary) {
     if (flows(run.scene)) {
         summary["flow"] = flow_entry(run.scene, run.series, run.first(), run.stress);
     } else if (run.is_thermal()) {
-        const double time_of_a_row =
-            (run.series.column("time").back() - run.begin) / static_cast<double>(run.series.rows());
         summary["viscosity_at_rest"] =
-            viscosity_at_rest_entry(run.scene, run.simulation, run.window, run.stress, time_of_a_row,
+            viscosity_at_rest_entry(run.scene, run.simulation, run.window, run.stress, row_time(run.series, run.begin),
                                     run.average_of("nematic_order").mean, run.clocks);
     }
 }

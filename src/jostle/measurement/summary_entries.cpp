@@ -69,12 +69,13 @@ double without_rounding(double value) {
     return std::stod(fmt::format("{:.12g}", value));
 }
 
-Json tensor_entry(const Columns& columns, const std::string& unit) {
+Json tensor_entry(const Columns& columns, const std::string& unit,
+                  const std::function<Average(const std::vector<double>&)>& average_of) {
     Json mean = Json::array(), error = Json::array();
     for (std::size_t a = 0; a < 3; ++a) {
         Json mean_row = Json::array(), error_row = Json::array();
         for (std::size_t b = 0; b < 3; ++b) {
-            const Average element = average(columns[3 * a + b]);
+            const Average element = average_of(columns[3 * a + b]);
             mean_row.push_back(element.mean);
             error_row.push_back(optional_number(element.standard_error));
         }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -38,8 +39,9 @@ nlohmann::ordered_json optional_number(const std::optional<double>& value);
 /// 0.3, where the volumes of rods and box give 0.3000000000000014.
 double without_rounding(double value);
 
-/// Mean and standard error of each of nine columns, by rows of the tensor.
-nlohmann::ordered_json tensor_entry(const Columns& columns, const std::string& unit);
+/// Mean and standard error of each of nine columns, by rows of the tensor. `average_of`: how a column is averaged.
+nlohmann::ordered_json tensor_entry(const Columns& columns, const std::string& unit,
+                                    const std::function<Average(const std::vector<double>&)>& average_of);
 
 /// Takes all error bars out of an entry and its parts, and gives the reason instead. A check of theory that agrees is
 /// no longer said to; one that fails still is.

@@ -53,8 +53,8 @@ std::string too_short(const ProductionSeries& series, const FreeClocks& clocks, 
         if (check.rotation_times < least_rotation_times)
             return covers(check.rotation_times, "rotation time", least_rotation_times);
         if (average(series.order).mean < nematic_above) {
-            const double d = series.dimensions;
-            const double decay = 2.0 * d / (d - 1.0) * decay_of_tensor(series.order_tensor) * series.row_time;
+            const double decay =
+                tensor_decays_per_rotation(series.dimensions) * decay_of_tensor(series.order_tensor) * series.row_time;
             check.rotation_time = std::max(clocks.rotation, decay);
             check.rotation_times = window / check.rotation_time;
             if (!std::isfinite(decay))

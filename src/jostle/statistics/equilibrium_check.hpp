@@ -18,6 +18,11 @@ struct FreeClocks {
 /// Rotation times that a window has to cover. The order tensor of free rods decays three times as fast as their axes:
 /// so many hold twelve of its correlation times.
 inline constexpr double least_rotation_times = 4.0;
+/// How many correlation times of the order tensor make a rotation time, of free rods: 1/(2 D_R) over 1/(6 D_R), in the
+/// plane 1/D_R over 1/(4 D_R).
+constexpr double tensor_decays_per_rotation(int dimensions) {
+    return 2.0 * dimensions / (dimensions - 1.0);
+}
 /// Diffusion times that it has to cover.
 inline constexpr double least_diffusion_times = 2.0;
 

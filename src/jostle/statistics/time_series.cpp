@@ -96,8 +96,62 @@ double squared_error_of_mean(std::span<const double> series) {
 }
 
 Average without_error(Average average, std::string reason) {
+    average.standard_error.reset();
     average.no_error_reason = std::move(reason);
     return average;
+}
+
+std::string too_few_samples(double samples) {
+    return fmt::format("The series is worth {:.1f} independent rows; at least {} are needed.", samples,
+                       least_effective_samples);
+}
+
+/// Variance of the mean, and what it is multiplied by for the few samples that it is known from.
+struct KnownError {
+    double squared_error = 0.0, widening = 1.0;
+
+    double widened() const { return squared_error * widening * widening; }
+};
+
+/// b of y = <y> + b (x - <x>), and the variance of x. x is not constant.
+struct Regression {
+    double slope = 0.0, variance = 0.0;
+
+    Regression(std::span<const double> y, std::span<const double> x) {
+        const double mean = mean_of(x), mean_y = mean_of(y);
+        double product = 0.0, square = 0.0;
+        for (std::size_t k = 0; k < x.size(); ++k) {
+            product += (x[k] - mean) * (y[k] - mean_y);
+            square += (x[k] - mean) * (x[k] - mean);
+        }
+        slope = product / square;
+        variance = square / static_cast<double>(x.size());
+    }
+};
+
+/// What a series of so many rows is worth if the variance of its mean is `squared_error`.
+double effective_samples(double variance_of_rows, double squared_error, double rows) {
+    return std::min(rows, (variance_of_rows + squared_error) / squared_error);
+}
+
+/// Of what of y does not follow x.
+KnownError error_of_rest(std::span<const double> y, std::span<const double> x, double slope) {
+    std::vector<double> rest(y.begin(), y.end());
+    double squares = 0.0;
+    const double mean = mean_of(x);
+    for (std::size_t k = 0; k < rest.size(); ++k) rest[k] -= slope * (x[k] - mean);
+    const double mean_of_rest = mean_of(rest);
+    for (const double value : rest) squares += (value - mean_of_rest) * (value - mean_of_rest);
+    const auto n = static_cast<double>(rest.size());
+    const double squared_error = std::max(squared_error_of_mean(rest), squares / (n * n));
+    if (squared_error == 0.0) return {};  // y is linear in x
+    return {squared_error, widening(effective_samples(squares / n, squared_error, n) / samples_per_degree_of_freedom)};
+}
+
+/// Of b times the mean of x, which is worth so many samples.
+KnownError error_of_slow_part(const Regression& regression, double samples, bool time_is_known) {
+    return {regression.slope * regression.slope * regression.variance / (samples - 1.0),
+            widening(time_is_known ? samples - 1.0 : samples / samples_per_degree_of_freedom)};
 }
 
 }  // namespace
@@ -126,10 +180,34 @@ Average average(std::span<const double> series) {
     result.correlation_time = 0.5 * inefficiency;
     result.effective_samples = n / inefficiency;
     if (result.effective_samples < least_effective_samples)
-        return without_error(result, fmt::format("The series is worth {:.1f} independent rows; at least {} are needed.",
-                                                 result.effective_samples, least_effective_samples));
+        return without_error(result, too_few_samples(result.effective_samples));
     result.standard_error =
         std::sqrt(variance * inefficiency / n) * widening(result.effective_samples / samples_per_degree_of_freedom);
+    return result;
+}
+
+Average average(std::span<const double> series, const SlowColumn& slow) {
+    require_columns(std::vector{std::vector(series.begin(), series.end()), slow.rows});
+    Average result = average(series);
+    if (!result.standard_error) return result;
+    const auto n = static_cast<double>(series.size());
+    const Regression regression(series, slow.rows);
+    const double samples = n / (2.0 * slow.correlation_time);
+    if (!std::isfinite(regression.slope)) return result;  // x is constant
+    if (!(samples > 1.0))
+        return without_error(result, "The series is shorter than what it follows slowly takes to change.");
+    const KnownError rest = error_of_rest(series, slow.rows, regression.slope);
+    const KnownError followed = error_of_slow_part(regression, samples, slow.time_is_known);
+    const double widened = std::sqrt(rest.widened() + followed.widened());
+    if (widened <= *result.standard_error) return result;
+    const double deviation = result.standard_deviation;
+    result.effective_samples = std::min(
+        result.effective_samples,
+        effective_samples(deviation * deviation * (n - 1.0) / n, rest.squared_error + followed.squared_error, n));
+    result.correlation_time = 0.5 * n / result.effective_samples;
+    if (result.effective_samples < least_effective_samples)
+        return without_error(result, too_few_samples(result.effective_samples));
+    result.standard_error = widened;
     return result;
 }
 

@@ -43,6 +43,23 @@ struct Average {
 /// or has fewer than `least_effective_samples`. It cannot see a mode that is slower than the series is long.
 Average average(std::span<const double> series);
 
+/// A column that changes slowly, as the order of the rods does, and that others follow in part.
+struct SlowColumn {
+    std::vector<double> rows;
+    double correlation_time = 0.0;  ///< integrated, in rows
+    bool time_is_known = false;     ///< beforehand, and not from these rows
+};
+
+/// The same of a series that follows a slow column x of the same rows:
+///
+///     y = <y> + b (x - <x>) + rest,   b by least squares,
+///     squared error = that of the rest + b^2 (variance of x) (2 tau/n)/(1 - 2 tau/n),
+///
+/// each widened by Student's t of its own samples, or that of the series alone, whichever is larger. Of x these are
+/// n/(2 tau) - 1 degrees of freedom if tau is known, else a third of n/(2 tau). A slow part of a few per cent of the
+/// variance is below the noise of y. x shows it without noise, and tau may be known better than by rows of y.
+Average average(std::span<const double> series, const SlowColumn& slow);
+
 /// The integrated correlation time, in rows, of several columns that fluctuate together, such as the elements of a
 /// tensor: from the sum of their autocovariances, which is known the better the more columns there are.
 ///

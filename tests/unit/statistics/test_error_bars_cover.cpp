@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "autoregressive.hpp"
+#include "jostle/error/input_error.hpp"
 #include "jostle/statistics/time_series.hpp"
 
 using namespace jostle;
@@ -18,6 +19,7 @@ namespace {
 constexpr int trials = 400;
 
 using Series = std::function<std::vector<double>(std::mt19937_64&)>;
+using Averaged = std::function<Average(std::mt19937_64&)>;
 
 struct Ensemble {
     double given = 0.0;    // share of series with an error bar
@@ -25,13 +27,13 @@ struct Ensemble {
     double ratio = 0.0;    // root mean square of the means over the mean error bar
 };
 
-Ensemble ensemble(const Series& series, unsigned seed) {
+Ensemble ensemble_of(const Averaged& averaged, unsigned seed) {
     std::mt19937_64 generator(seed);
     MESSAGE("seed " << seed);
     Ensemble result;
     double squares = 0.0, errors = 0.0;
     for (int k = 0; k < trials; ++k) {
-        const Average found = average(series(generator));
+        const Average found = averaged(generator);
         if (!found.standard_error) continue;
         result.given += 1.0;
         result.covered += std::fabs(found.mean) < 2.0 * *found.standard_error;
@@ -42,6 +44,10 @@ Ensemble ensemble(const Series& series, unsigned seed) {
     result.ratio = std::sqrt(squares / result.given) / (errors / result.given);
     result.given /= trials;
     return result;
+}
+
+Ensemble ensemble(const Series& series, unsigned seed) {
+    return ensemble_of([&](std::mt19937_64& generator) { return average(series(generator)); }, seed);
 }
 
 Series first_order(std::size_t rows, double time) {
@@ -112,4 +118,52 @@ TEST_CASE("of series worth fewer than ten samples at most one in ten gets an err
     };
     CHECK(ensemble(drifting, ++seed).given <= 0.10);
     CHECK(ensemble(relaxing, ++seed).given <= 0.10);
+}
+
+TEST_CASE("a slow part that another column shows is in the error bar, and none where there is none") {
+    constexpr std::size_t rows = 1500;
+    constexpr double time = 100.0;
+    const auto averaged = [&](double share, bool beside, bool known) -> Averaged {
+        return [=](std::mt19937_64& generator) {
+            const SlowColumn slow{autoregressive(generator, rows, std::exp(-1.0 / time)), time, known};
+            std::vector<double> series = autoregressive(generator, rows, 0.0);
+            for (std::size_t k = 0; k < rows; ++k) series[k] += share * slow.rows[k];
+            return beside ? average(series, slow) : average(series);
+        };
+    };
+    unsigned seed = 500;
+    for (const double share : {0.0, 0.1, 0.2, 0.5}) {
+        CAPTURE(share);
+        const Ensemble found = ensemble_of(averaged(share, true, true), ++seed);
+        const Ensemble alone = ensemble_of(averaged(share, false, true), seed);  // of the same series
+        CHECK(found.covered >= 0.93);
+        CHECK(found.ratio <= 1.1);
+        CHECK(found.ratio >= 0.65);
+        CHECK(found.covered >= alone.covered + (share > 0.0 ? 0.02 : 0.0));
+        CHECK(ensemble_of(averaged(share, true, false), seed).covered >= found.covered);
+    }
+}
+
+TEST_CASE("a series that is nothing but the slow column has its error bar") {
+    const auto averaged = [](std::mt19937_64& generator) {
+        const SlowColumn slow{autoregressive(generator, 8000, std::exp(-1.0 / 50.0)), 50.0, true};
+        std::vector<double> series = slow.rows;
+        for (double& value : series) value *= -3.0;
+        return average(series, slow);
+    };
+    const Ensemble found = ensemble_of(averaged, 600);
+    CHECK(found.given >= 0.9);
+    CHECK(found.covered >= 0.93);
+    CHECK(found.ratio <= 1.1);
+}
+
+TEST_CASE("a slow column that is constant, or shorter than its own correlation time") {
+    std::mt19937_64 generator(700);
+    const std::vector<double> series = autoregressive(generator, 400, 0.0);
+    const Average alone = average(series);
+    CHECK(average(series, SlowColumn{std::vector<double>(400, 0.25), 10.0}).standard_error == alone.standard_error);
+    const std::vector<double> other = autoregressive(generator, 400, 0.0);
+    CHECK(!average(series, SlowColumn{other, 200.0}).standard_error);
+    CHECK(average(series, SlowColumn{other, 200.0}).no_error_reason.size() > 20);
+    CHECK_THROWS_AS(average(series, SlowColumn{std::vector<double>(399, 0.0), 10.0}), InputError);
 }
