@@ -29,6 +29,9 @@ std::int16_t in_normal_units(float component) {
 /// other, else all pairs are passed over.
 constexpr std::size_t rods_per_one_beyond = 12;
 
+/// By so many displacement limits a rod that comes beyond the limit may go on before it is looked at again.
+constexpr double foresight = 0.25;
+
 /// Pairs side by side, for vector instructions.
 struct Batch {
     static constexpr std::size_t size = 128;  ///< few enough to stay in the nearest cache
@@ -136,12 +139,14 @@ double CollisionSearch::find(const StepGeometry& step, Contacts& contacts) {
     activated_.clear();
     displacement_.resize(rods.size());
     change_.resize(rods.size());
+    known_beyond_.resize(rods.size());
     for (const std::uint32_t row : displaced_rows_) {
         if (row >= rods.size()) continue;
         displacement_[row] = {};
-        change_[row] = 0.0F;
+        change_[row] = known_beyond_[row] = 0.0F;
     }
     displaced_rows_.clear();
+    late_.clear();
     double overlap = 0.0;
     for (const Found& share : shares_) overlap = std::max(overlap, share.overlap);
     return overlap;
@@ -299,6 +304,18 @@ void CollisionSearch::search_inactive(std::size_t block, GapAtEnd&& gap_at_end) 
     }
 }
 
+/// The same for late pairs, which have no slab.
+template <class GapAtEnd>
+void CollisionSearch::search_late(std::size_t begin, std::size_t end, GapAtEnd&& gap_at_end) {
+    MarkedNumbers<NeighbourList::block_size> used_up;
+    take_off_changes(end - begin, late_.i.data() + begin, late_.j.data() + begin, change_.data(),
+                     late_.left.data() + begin, used_up.marks());
+    for (const std::uint16_t number : used_up.find(end - begin)) {
+        const std::size_t k = begin + number;
+        late_.left[k] = gap_at_end(late_.i[k], late_.number[k]);
+    }
+}
+
 /// By rows, where pairs look for them: 0 for rods without contacts.
 void CollisionSearch::take_displacements(const EndConfiguration& end) {
     displaced_rows_.assign(end.rows.begin(), end.rows.end());
@@ -309,45 +326,75 @@ void CollisionSearch::take_displacements(const EndConfiguration& end) {
     });
 }
 
+/// Lets those rods come farther that forces displace beyond what was thought, and somewhat farther than they do: with
+/// the next forces they will go a little elsewhere.
+std::vector<NeighbourList::Widening> CollisionSearch::widen(const StepGeometry& step, const EndConfiguration& end) {
+    const double limit = step.ranges.displacement_limit;
+    std::vector<NeighbourList::Widening> farther;
+    for (std::size_t k = 0; k < end.rows.size(); ++k) {
+        const std::uint32_t row = end.rows[k];
+        const double known = known_beyond_[row], beyond = end.displacement[k].farthest - limit;
+        if (beyond <= known) continue;
+        const double spare = std::max(neighbours_.spare_range(row) - (beyond - known), 0.0);
+        known_beyond_[row] = static_cast<float>(beyond + std::min(foresight * limit, spare));
+        farther.push_back({row, known_beyond_[row] - known});
+    }
+    if (farther.empty() || neighbours_.widen(farther)) return farther;
+    std::vector<double> ranges = interaction_range_;
+    for (std::size_t row = 0; row < ranges.size(); ++row) ranges[row] += known_beyond_[row];
+    neighbours_.widen_to(step.rods, step.box, ranges);
+    return farther;
+}
+
 std::vector<PairKey> CollisionSearch::violated_pairs(const StepGeometry& step, const Contacts& contacts,
                                                      const EndConfiguration& end) {
     take_displacements(end);
-    std::vector<std::vector<PairKey>> found(in_block_.size());
-    constexpr float settled = std::numeric_limits<float>::infinity();  // a contact from now on
-    const auto gap_at_end = [&](std::size_t block, const PairKey& key) {
+    std::vector<std::vector<PairKey>> found;
+    const auto make_places = [&](std::size_t parts) { found.resize(std::max(found.size(), parts)); };
+    const auto gap_at_end = [&](std::size_t part, const PairKey& key) {
+        constexpr float settled = std::numeric_limits<float>::infinity();  // a contact from now on
         const PairGeometry pair = end.pair(step.box, key);
         const double gap = pair_gap(pair);
         if (gap >= 0.0) return static_cast<float>(gap - 1e-6 * pair.radii);
-        if (!is_contact(key, contacts)) found[block].push_back(key);
+        if (!is_contact(key, contacts)) found[part].push_back(key);
         return settled;
     };
+    const auto gap_of_listed = [&](std::size_t part, std::uint32_t i, std::size_t number) {
+        return gap_at_end(part, in_order_of_ids(neighbours_.key(i, number), step.rods.id));
+    };
     if (!neighbours_.built_while_widened()) {
+        make_places(in_block_.size());
         parallel_for_parts(in_block_.size(), [&](std::size_t block) {
             search_inactive(block, [&](std::uint32_t i, std::size_t in_block) {
                 return gap_at_end(block, key_of(block, i, in_block, step.rods));
             });
         });
+        make_places(late_.left.size() / NeighbourList::block_size + 1);
+        parallel_for_blocks(
+            late_.left.size(), NeighbourList::block_size, [&](std::size_t block, std::size_t first, std::size_t last) {
+                search_late(first, last,
+                            [&](std::uint32_t i, std::size_t number) { return gap_of_listed(block, i, number); });
+            });
     }
     // Pairs that were passed over because no force was thought to take rods so far; and all, once the list is another.
-    const double limit = step.ranges.displacement_limit;
-    std::vector<NeighbourList::BeyondRange> farther;
-    for (const std::uint32_t row : end.rows)
-        if (displacement_[row].farthest > limit) farther.push_back({row, displacement_[row].farthest - limit});
-    if (!farther.empty()) neighbours_.widen(step.rods, step.box, interaction_range_, farther);
-    const bool are_many = step.rods.size() < rods_per_one_beyond * farther.size();
-    const bool in_blocks = are_many || neighbours_.built_while_widened();
+    const auto farther = widen(step, end);
+    const bool are_all_new = neighbours_.built_while_widened();
+    const bool in_blocks = are_all_new || step.rods.size() < rods_per_one_beyond * farther.size();
     const std::size_t parts = in_blocks ? neighbours_.block_count() : farther.size();
-    found.resize(std::max(found.size(), parts));
+    std::vector<std::vector<LatePair>> late(parts);
+    make_places(parts);
     parallel_for_parts(parts, [&](std::size_t part) {
-        const auto look = [&](std::uint32_t i, std::size_t pair) {
-            if (neighbours_.is_newly_close(i, pair))
-                gap_at_end(part, in_order_of_ids(neighbours_.key(i, pair), step.rods.id));
+        const auto look = [&](std::uint32_t i, std::size_t number) {
+            const float left = gap_of_listed(part, i, number);
+            if (!are_all_new) late[part].push_back({i, neighbours_.key(i, number).j, number, left});
         };
         if (in_blocks)
             neighbours_.for_close_pairs(part, look);
         else
             neighbours_.for_close_pairs_of(farther[part].row, look);
     });
+    for (const auto& part : late)
+        for (const LatePair& pair : part) late_.push_back(pair);
     std::vector<PairKey> all;
     for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
     std::sort(all.begin(), all.end());

@@ -46,8 +46,9 @@ struct StepGeometry {
 ///                    float, many pairs at once), or the narrow phase does (in double)
 ///       contacts:    all others, and those with a gap below `range` now
 ///
-/// Once contact forces are known, `violated_pairs` looks at the inactive pairs, and at all neighbours of rods that
-/// forces displace beyond the limit, and returns those that would collide after all; `activate` makes them contacts.
+/// Once contact forces are known, `violated_pairs` looks at the inactive pairs, and at those neighbours of rods that
+/// forces displace beyond the limit which were passed over until then, and returns those that would collide after all;
+/// `activate` makes them contacts.
 /// The result depends on the rods alone, not on the history of the list.
 class CollisionSearch {
 public:
@@ -114,6 +115,30 @@ private:
             slab.push_back(new_slab);
         }
     };
+    /// A pair that was passed over until forces displaced one of its rods beyond the limit.
+    struct LatePair {
+        std::uint32_t i, j;
+        std::size_t number;  ///< in the neighbour list
+        float left;          ///< as that of inactive pairs
+    };
+    struct LatePairs {
+        std::vector<std::uint32_t> i, j;
+        std::vector<std::size_t> number;
+        std::vector<float> left;
+
+        void clear() {
+            i.clear();
+            j.clear();
+            number.clear();
+            left.clear();
+        }
+        void push_back(const LatePair& pair) {
+            i.push_back(pair.i);
+            j.push_back(pair.j);
+            number.push_back(pair.number);
+            left.push_back(pair.left);
+        }
+    };
     struct Found {  ///< by one thread, block after block of the neighbour list
         Contacts contacts;
         InactivePairs inactive;
@@ -140,6 +165,9 @@ private:
     float width_of_slab(const InactivePairs& pairs, std::size_t k) const;
     template <class GapAtEnd>
     void search_inactive(std::size_t block, GapAtEnd&& gap_at_end);
+    template <class GapAtEnd>
+    void search_late(std::size_t begin, std::size_t end, GapAtEnd&& gap_at_end);
+    std::vector<NeighbourList::Widening> widen(const StepGeometry& step, const EndConfiguration& end);
     bool is_contact(const PairKey& key, const Contacts& contacts) const;
 
     NeighbourList neighbours_{0.0};
@@ -149,6 +177,8 @@ private:
     std::vector<Found> shares_;               ///< (threads), in the order of their blocks
     std::vector<InBlock> in_block_;           ///< (blocks)
     std::vector<Displacement> displacement_;  ///< (N) by forces, at the last search for violated pairs
+    std::vector<float> known_beyond_;         ///< (N) so far beyond the displacement limit no neighbour is passed over
+    LatePairs late_;                          ///< of this step
     std::vector<float> change_;  ///< (N) how far any point of the rod went since the search before, at most
     std::vector<std::uint32_t> displaced_rows_;  ///< whose displacements are not 0; of a step there are only ever more
     std::size_t first_count_ = 0;                ///< contacts before any were activated

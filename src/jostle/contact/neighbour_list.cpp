@@ -17,35 +17,40 @@ namespace {
 
 constexpr std::size_t cells_per_block = 16;
 
-/// Marks the pairs whose rods' extents are not less than their gap. `extent_i`: (count) of their rows i.
-JOSTLE_VECTORISED void mark_close(std::size_t count, const std::uint32_t* j, const std::uint16_t* gap,
-                                  const std::int32_t* extent, std::int32_t* extent_i, std::uint8_t* marks) {
-    for (std::size_t k = 0; k < count; ++k) extent_i[k] += extent[j[k]] - gap[k];
-    for (std::size_t k = 0; k < count; ++k) marks[k] = extent_i[k] >= 0 ? 1 : 0;
+/// Marks the pairs whose rods' extents are not less than their gap.
+JOSTLE_VECTORISED void mark_close(std::size_t count, const std::uint32_t* i, const std::uint32_t* j,
+                                  const std::uint16_t* gap, const std::int32_t* extent, std::uint8_t* marks) {
+    for (std::size_t k = 0; k < count; ++k) marks[k] = extent[i[k]] + extent[j[k]] >= gap[k] ? 1 : 0;
+}
+
+/// Takes the marks off those.
+JOSTLE_VECTORISED void unmark_close(std::size_t count, const std::uint32_t* i, const std::uint32_t* j,
+                                    const std::uint16_t* gap, const std::int32_t* extent, std::uint8_t* marks) {
+    for (std::size_t k = 0; k < count; ++k) marks[k] &= extent[i[k]] + extent[j[k]] < gap[k] ? 1 : 0;
 }
 
 }  // namespace
 
-void NeighbourList::widen(const Rods& rods, const Box& box, std::span<const double> ranges,
-                          std::span<const BeyondRange> farther) {
-    if (extent_within_.empty())
-        extent_within_ = extent_;
-    else
-        extent_ = extent_within_;
-    bool is_too_far = built_while_widened_;
-    for (const auto& [row, beyond] : farther) {
-        extent_[row] += in_units(beyond);
-        is_too_far = is_too_far || extent_[row] >= in_units(0.5 * list_range_);  // both rounded up
+bool NeighbourList::widen(std::span<const Widening> farther) {
+    if (built_while_widened_) return false;
+    former_extent_ = extent_;
+    bool reaches = true;
+    for (const auto& [row, by] : farther) {
+        extent_[row] += in_units(by);
+        reaches = reaches && extent_[row] < farthest_extent();
     }
-    if (is_too_far) {
-        std::vector<double> needed(ranges.begin(), ranges.end());
-        for (const auto& [row, beyond] : farther) needed[row] += beyond;
-        if (is_of_own_rods_)
-            lacking_range_ = *std::ranges::max_element(needed);
-        else
-            built_while_widened_ = refresh(rods, box, needed) || built_while_widened_;
+    is_widened_ = true;
+    if (partner_begin_.empty()) list_partners();
+    return reaches;
+}
+
+void NeighbourList::widen_to(const Rods& rods, const Box& box, std::span<const double> ranges) {
+    if (is_of_own_rods_) {
+        lacking_range_ = *std::ranges::max_element(ranges);
+    } else if (refresh(rods, box, ranges)) {
+        built_while_widened_ = true;
+        is_widened_ = false;
     }
-    if (!built_while_widened_ && partner_begin_.empty()) list_partners();
 }
 
 // A stretch e moves two centres less than `centre_range_` apart by e centre_range_ against each other at most; and
@@ -156,17 +161,19 @@ std::int32_t NeighbourList::in_units(double extent) const {
 /// Their numbers in the block.
 std::span<const std::uint16_t> NeighbourList::find_close_pairs(std::size_t block, InBlock& pairs) const {
     const std::size_t begin = block * block_size, end = std::min(begin + block_size, size());
-    std::array<std::int32_t, block_size> extent_i;
     auto next = std::upper_bound(begin_.begin(), begin_.end(), begin);
     for (std::size_t pair = begin; pair < end; ++next) {
-        const auto row = static_cast<std::uint32_t>(next - begin_.begin() - 1);
         const std::size_t last = std::min(*next, end);
-        std::fill(pairs.i.data() + (pair - begin), pairs.i.data() + (last - begin), row);
-        std::fill(extent_i.data() + (pair - begin), extent_i.data() + (last - begin), extent_[row]);
+        std::fill(pairs.i.data() + (pair - begin), pairs.i.data() + (last - begin),
+                  static_cast<std::uint32_t>(next - begin_.begin() - 1));
         pair = last;
     }
-    mark_close(end - begin, j_.data() + begin, gap_.data() + begin, extent_.data(), extent_i.data(),
-               pairs.close.marks());
+    const auto mark = [&](auto&& marking, const std::vector<std::int32_t>& extent) {
+        marking(end - begin, pairs.i.data(), j_.data() + begin, gap_.data() + begin, extent.data(),
+                pairs.close.marks());
+    };
+    mark(mark_close, extent_);
+    if (is_widened_) mark(unmark_close, former_extent_);
     return pairs.close.find(end - begin);
 }
 

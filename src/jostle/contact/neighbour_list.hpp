@@ -29,26 +29,34 @@ public:
     /// Builds anew if need be; returns whether it did. `ranges`: (N), the share of each rod in the
     /// interaction range of a pair, lengths.
     bool update(const Rods& rods, const Box& box, std::span<const double> ranges) {
-        extent_within_.clear();
-        built_while_widened_ = false;
+        is_widened_ = built_while_widened_ = false;
         lacking_range_ = 0.0;
         return refresh(rods, box, ranges);
     }
 
-    /// A rod that comes farther than its range.
-    struct BeyondRange {
+    /// A rod whose range grows.
+    struct Widening {
         std::uint32_t row;
-        double beyond;  ///< a length
+        double by;  ///< a length
     };
 
-    /// After an `update` with `ranges`: lets some rods come farther, in place of earlier such ones.
-    void widen(const Rods& rods, const Box& box, std::span<const double> ranges, std::span<const BeyondRange> farther);
+    /// After an `update`: lets some rods come farther. Returns whether the list reaches that far; if not, the next call
+    /// has to be `widen_to`.
+    bool widen(std::span<const Widening> farther);
+
+    /// By so much the range of a row may grow before the list does not reach that far, or 0.
+    double spare_range(std::uint32_t row) const {
+        return units_per_length_ > 0.0 ? std::max(farthest_extent() - extent_[row] - 2, 0) / units_per_length_ : 0.0;
+    }
+
+    /// The same, to `ranges`, (N), and builds the list anew if need be.
+    void widen_to(const Rods& rods, const Box& box, std::span<const double> ranges);
 
     // Where other ranks have rods, too, only those near by are known, and this only up to some gap. The list is then
     // built when it is told to be, by all ranks together, and holds the pairs of this rank's own rods.
 
     /// Builds the list, of gaps below `list_range`, of pairs with at least one of the first `own` rods. From now on
-    /// `update` and `widen` do not build it; the caller has to ask whether it covers what they need.
+    /// `update` and `widen_to` do not build it; the caller has to ask whether it covers what they need.
     void build_of_own(const Rods& rods, const Box& box, double list_range, std::size_t own);
 
     /// Whether `update` would not have to build it.
@@ -58,7 +66,7 @@ public:
         return reference_.centre.size() == rods.size() && find_extents(rods, box, ranges) <= 0.5 * list_range_;
     }
 
-    /// The largest range that the last `widen` asked for and the list does not cover; 0 if there is none.
+    /// The largest range that the last `widen_to` asked for and the list does not cover; 0 if there is none.
     double lacking_range() const { return lacking_range_; }
 
     /// The rows that have a pair, and all of the first `own`.
@@ -93,23 +101,21 @@ public:
     std::size_t block_count() const { return (size() + block_size - 1) / block_size; }
 
     /// Calls found(i, pair) for the pairs of a block, in order, whose gap may be below the ranges given to the last
-    /// update. Most pairs of the list are passed over by what they were when the list was built.
+    /// update; once the list is widened, for those alone that were not named before. Most pairs of the list are passed
+    /// over by what they were when the list was built.
     template <class Found>
     void for_close_pairs(std::size_t block, Found&& found) const {
         InBlock pairs;
         for (const std::uint16_t k : find_close_pairs(block, pairs)) found(pairs.i[k], block * block_size + k);
     }
 
-    /// Whether for_close_pairs did not name a pair before the list was widened; of any, if that built the list anew.
-    bool is_newly_close(std::uint32_t i, std::size_t pair) const {
-        return built_while_widened_ || extent_within_[i] + extent_within_[j_[pair]] < gap_[pair];
-    }
-
-    /// Calls found(i, pair) for the close pairs of one row, i or j. After `widen`, unless that has built the list anew.
+    /// Calls found(i, pair) for those of one row, i or j. After `widen`, unless the list was built anew since.
     template <class Found>
     void for_close_pairs_of(std::uint32_t row, Found&& found) const {
         const auto look = [&](std::uint32_t i, std::size_t pair) {
-            if (extent_[i] + extent_[j_[pair]] >= gap_[pair]) found(i, pair);
+            const std::uint32_t j = j_[pair];
+            if (extent_[i] + extent_[j] >= gap_[pair] && former_extent_[i] + former_extent_[j] < gap_[pair])
+                found(i, pair);
         };
         for (std::size_t pair = begin_[row]; pair < begin_[row + 1]; ++pair) look(row, pair);
         for (std::size_t k = partner_begin_[row]; k < partner_begin_[row + 1]; ++k)
@@ -123,6 +129,7 @@ private:
     bool refresh(const Rods& rods, const Box& box, std::span<const double> ranges);
     double find_extents(const Rods& rods, const Box& box, std::span<const double> ranges);
     std::int32_t in_units(double extent) const;
+    std::int32_t farthest_extent() const { return in_units(0.5 * list_range_); }  ///< rounded up, as all extents
     void build(const Rods& rods, const Box& box, double list_range, std::size_t own);
     void renumber_copies(std::int32_t copies);
 
@@ -151,12 +158,13 @@ private:
     std::vector<Image> images_;
     std::vector<std::array<std::int16_t, 3>> crossed_;  ///< (N) box edges that a rod has crossed since
     std::vector<std::int32_t> extent_;                  ///< (N) d_i + range_i at the last update, in units, rounded up
-    std::vector<std::int32_t> extent_within_;           ///< (N) before the list was widened, or none
+    std::vector<std::int32_t> former_extent_;           ///< (N) before the list was widened last
     struct PairOfRow {
         std::uint32_t i, in_row;
     };
     std::vector<PairOfRow> partner_of_;       ///< (pairs) those in which a row is j, one row after the other
     std::vector<std::size_t> partner_begin_;  ///< (N + 1) the first of each row; none until needed
+    bool is_widened_ = false;                 ///< since the last update, and not built since
     bool built_while_widened_ = false;
     bool is_of_own_rods_ = false;  ///< and not built but when told to
     double lacking_range_ = 0.0;

@@ -15,6 +15,11 @@ namespace {
 
 constexpr double margin = 0.02, displacement_limit = 0.05, skin = 0.3;
 
+Vec3 random_vector(double size, std::mt19937_64& engine) {
+    std::normal_distribution<double> normal;
+    return size * Vec3{normal(engine), normal(engine), normal(engine)};
+}
+
 /// Random known motions of rods, and displacements of every third by forces.
 struct Moves {
     const Rods& rods_before;
@@ -32,26 +37,33 @@ struct Moves {
           known_velocity(rods.size()),
           farthest_known(rods.size()),
           local_index(rods.size(), no_local_index) {
-        std::normal_distribution<double> normal;
-        const auto vector = [&](double size) { return size * Vec3{normal(engine), normal(engine), normal(engine)}; };
         for (std::uint32_t i = 0; i < rods.size(); ++i) {
             const double half = 0.5 * rods.length[i], lever = 1.0 + half;
-            const Vec3 turn = vector(known_size / lever);
-            known_velocity.linear[i] = vector(known_size);
+            const Vec3 turn = random_vector(known_size / lever, engine);
+            known_velocity.linear[i] = random_vector(known_size, engine);
             known_velocity.angular[i] = turn;
             known.centre.push_back(rods.centre[i] + known_velocity.linear[i]);
             known.axis.push_back(rotated(rods.axis[i], turn));
             farthest_known[i] =
                 farthest_displacement(known.centre[i] - rods.centre[i], known.axis[i] - rods.axis[i], half);
-            const double size = i % 3 == 0 ? forced_size : 0.0;
-            const Vec3 shift = vector(size), more = vector(size / lever);
-            if (size == 0.0) continue;
+            if (forced_size == 0.0 || i % 3 != 0) continue;
             local_index[i] = static_cast<std::uint32_t>(rows.size());
             rows.push_back(i);
-            velocity.push_back({shift, cross(more, rods.axis[i])});
-            const Vec3 turned = end().axis(i) - known.axis[i];
-            displacement.push_back({in_float(shift), in_float(half * turned),
-                                    static_cast<float>(1.00001 * farthest_displacement(shift, turned, half)), 1e-5F});
+        }
+        velocity.resize(rows.size());
+        displacement.resize(rows.size());
+        change_forces(forced_size, engine);
+    }
+    /// Every displacement by forces changes by about `size`.
+    void change_forces(double size, std::mt19937_64& engine) {
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            const std::uint32_t i = rows[k];
+            const double half = 0.5 * rods_before.length[i];
+            velocity[k].centre += random_vector(size, engine);
+            velocity[k].axis_rate += cross(random_vector(size / (1.0 + half), engine), rods_before.axis[i]);
+            const Vec3 shift = velocity[k].centre, turned = end().axis(i) - known.axis[i];
+            displacement[k] = {in_float(shift), in_float(half * turned),
+                               static_cast<float>(1.00001 * farthest_displacement(shift, turned, half)), 1e-5F};
         }
     }
     StepGeometry step(double range = 0.0, double normals_after = 0.0) const {
@@ -149,6 +161,31 @@ TEST_CASE("contacts, and violated pairs: against brute force, in any box, with s
         }
     }
     CHECK(violated_in_all > 20);  // or the test would not test the second half
+}
+
+TEST_CASE("violated pairs of forces that change from search to search: against brute force") {
+    const Box box{{18, 18, 18}, {true, true, true}};
+    std::mt19937_64 engine(37);
+    const Rods rods = thrown(300, box, 5.0, 1.0, engine);
+    CollisionSearch search;
+    std::size_t found_late = 0;
+    for (int step = 0; step < 8; ++step) {
+        Moves moves(rods, box, 0.03, 0.02, engine);
+        Contacts contacts;
+        search.find(moves.step(), contacts);
+        // From below the displacement limit to beyond it, now of a few rods and now of many; by 0.3 the list is built
+        // anew within the step.
+        for (const double change : {0.0, 0.01, 0.03, 0.005, 0.06, 0.01, 0.3, 0.01}) {
+            moves.change_forces(change, engine);
+            const auto violated = search.violated_pairs(moves.step(), contacts, moves.end());
+            auto expected = pairs_within(rods, box, moves.all_at_end(), 0.0);
+            for (const PairKey& key : keys(contacts)) expected.erase(key);
+            CHECK(std::set<PairKey>(violated.begin(), violated.end()) == expected);
+            contacts.append(search.activate(violated, moves.step()));
+            found_late += change > 0.0 ? violated.size() : 0;
+        }
+    }
+    CHECK(found_late > 100);
 }
 
 TEST_CASE("with a range, all pairs with a smaller gap are contacts") {
