@@ -359,9 +359,6 @@ std::vector<PairKey> CollisionSearch::violated_pairs(const StepGeometry& step, c
         if (!is_contact(key, contacts)) found[part].push_back(key);
         return settled;
     };
-    const auto gap_of_listed = [&](std::size_t part, std::uint32_t i, std::size_t number) {
-        return gap_at_end(part, in_order_of_ids(neighbours_.key(i, number), step.rods.id));
-    };
     if (!neighbours_.built_while_widened()) {
         make_places(in_block_.size());
         parallel_for_parts(in_block_.size(), [&](std::size_t block) {
@@ -370,11 +367,12 @@ std::vector<PairKey> CollisionSearch::violated_pairs(const StepGeometry& step, c
             });
         });
         make_places(late_.left.size() / NeighbourList::block_size + 1);
-        parallel_for_blocks(
-            late_.left.size(), NeighbourList::block_size, [&](std::size_t block, std::size_t first, std::size_t last) {
-                search_late(first, last,
-                            [&](std::uint32_t i, std::size_t number) { return gap_of_listed(block, i, number); });
-            });
+        parallel_for_blocks(late_.left.size(), NeighbourList::block_size,
+                            [&](std::size_t block, std::size_t first, std::size_t last) {
+                                search_late(first, last, [&](std::uint32_t i, std::size_t number) {
+                                    return gap_at_end(block, in_order_of_ids(neighbours_.key(i, number), step.rods.id));
+                                });
+                            });
     }
     // Pairs that were passed over because no force was thought to take rods so far; and all, once the list is another.
     const auto farther = widen(step, end);
@@ -385,8 +383,9 @@ std::vector<PairKey> CollisionSearch::violated_pairs(const StepGeometry& step, c
     make_places(parts);
     parallel_for_parts(parts, [&](std::size_t part) {
         const auto look = [&](std::uint32_t i, std::size_t number) {
-            const float left = gap_of_listed(part, i, number);
-            if (!are_all_new) late[part].push_back({i, neighbours_.key(i, number).j, number, left});
+            const PairKey key = neighbours_.key(i, number);
+            const float left = gap_at_end(part, in_order_of_ids(key, step.rods.id));
+            if (!are_all_new) late[part].push_back({i, key.j, number, left});
         };
         if (in_blocks)
             neighbours_.for_close_pairs(part, look);

@@ -44,13 +44,13 @@ public:
     /// has to be `widen_to`.
     bool widen(std::span<const Widening> farther);
 
+    /// The same, to `ranges`, (N), and builds the list anew if need be.
+    void widen_to(const Rods& rods, const Box& box, std::span<const double> ranges);
+
     /// By so much the range of a row may grow before the list does not reach that far, or 0.
     double spare_range(std::uint32_t row) const {
         return units_per_length_ > 0.0 ? std::max(farthest_extent() - extent_[row] - 2, 0) / units_per_length_ : 0.0;
     }
-
-    /// The same, to `ranges`, (N), and builds the list anew if need be.
-    void widen_to(const Rods& rods, const Box& box, std::span<const double> ranges);
 
     // Where other ranks have rods, too, only those near by are known, and this only up to some gap. The list is then
     // built when it is told to be, by all ranks together, and holds the pairs of this rank's own rods.
