@@ -12,7 +12,7 @@ namespace {
 /// Cells along one direction, and in all.
 constexpr double max_along = 200.0;
 /// The grid is made for a longer range than is asked for, so that it lasts.
-constexpr double spare = 1.1;
+constexpr double range_margin = 1.1;
 
 double distance_from_axis(const Vec3& point, const Vec3& centre, const Vec3& axis, double half) {
     const Vec3 between = point - centre;
@@ -30,7 +30,7 @@ void FixedRodGrid::fit(const Box& box, double range) {
     if (fixed_ == box.fixed_rods() && edges_ == box.edges() && range <= range_) return;
     fixed_ = box.fixed_rods();
     edges_ = box.edges();
-    range_ = spare * range;
+    range_ = range_margin * range;
     list_copies(box);
 }
 
