@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "jostle/contact/own_image.hpp"
-#include "jostle/contact/segment_separation.hpp"
+#include "jostle/contact/pair_bounds.hpp"
 #include "jostle/math/marked_numbers.hpp"
 #include "jostle/math/vectorised.hpp"
 #include "jostle/parallel/parallel_for.hpp"
@@ -14,77 +14,12 @@ namespace jostle {
 
 namespace {
 
-/// What float rounding may do to the quick bounds, in units of the rods' size. The bound of a plane is right for any
-/// normal, so rounding of the nearest points does not matter to it; to the gap it does, for nearly parallel rods.
-constexpr float bound_error = 1e-5F, gap_error = 2e-3F;
-
-/// Components of normals are kept to this: each is cut by less, the whole normal by less than twice as much.
-constexpr float normal_unit = 1.0F / 32766.0F;
-
-std::int16_t in_normal_units(float component) {
-    return static_cast<std::int16_t>(component * (1.0F / normal_unit));
-}
-
 /// If not more than one of so many rods is displaced beyond the limit, their pairs are looked for one rod after the
 /// other, else all pairs are passed over.
 constexpr std::size_t rods_per_one_beyond = 12;
 
 /// By so many displacement limits a rod that comes beyond the limit may go on before it is looked at again.
 constexpr double foresight = 0.25;
-
-/// Pairs side by side, for vector instructions.
-struct Batch {
-    static constexpr std::size_t size = 128;  ///< few enough to stay in the nearest cache
-    using Row = std::array<float, size>;
-    std::array<std::uint32_t, size> i, j;      ///< rows
-    std::array<std::uint16_t, size> in_block;  ///< numbers of the pairs in their block
-    std::array<Row, 3> between, moved, axis_i, axis_j, axis_i_after, axis_j_after;
-    Row half_i, half_j, radii;
-    Row gap;        ///< before the step
-    Row slack;      ///< lower bound of the gap after the known motion: the width of a slab with `normal`
-    Row same_side;  ///< cosine of the angle between the lines of nearest points before and after that motion
-    std::array<std::array<std::int16_t, size>, 3> normal;  ///< in units of normal_unit
-    MarkedNumbers<size> inactive;                          ///< by these bounds
-};
-
-/// Beyond this cosine, rounding apart, rods have not passed through each other.
-constexpr float clearly_same_side = 0.1F;
-
-/// The gaps of pairs, and the width of the empty slab between the moved rods whose faces are normal to the line between
-/// their nearest points; so those are marked whose gap is above `range` now, and above `margin` then.
-JOSTLE_VECTORISED void find_bounds(std::size_t count, float range, float margin, Batch& batch) {
-    const auto& [x, y, z] = batch.between;
-    const auto& [mx, my, mz] = batch.moved;
-    const auto& [ux, uy, uz] = batch.axis_i;
-    const auto& [vx, vy, vz] = batch.axis_j;
-    const auto& [px, py, pz] = batch.axis_i_after;
-    const auto& [qx, qy, qz] = batch.axis_j_after;
-    auto& [normal_x, normal_y, normal_z] = batch.normal;
-    for (std::size_t k = 0; k < count; ++k) {
-        const auto [ex, ey, ez] = segment_separation({x[k], y[k], z[k]}, {ux[k], uy[k], uz[k]}, batch.half_i[k],
-                                                     {vx[k], vy[k], vz[k]}, batch.half_j[k]);
-        const float distance = std::sqrt(ex * ex + ey * ey + ez * ez) + 1e-30F;
-        const float ax = x[k] + mx[k], ay = y[k] + my[k], az = z[k] + mz[k];
-        const auto [fx, fy, fz] = segment_separation({ax, ay, az}, {px[k], py[k], pz[k]}, batch.half_i[k],
-                                                     {qx[k], qy[k], qz[k]}, batch.half_j[k]);
-        const float distance_after = std::sqrt(fx * fx + fy * fy + fz * fz) + 1e-30F;
-        const float nx = fx / distance_after, ny = fy / distance_after, nz = fz / distance_after;
-        normal_x[k] = in_normal_units(nx);
-        normal_y[k] = in_normal_units(ny);
-        normal_z[k] = in_normal_units(nz);
-        batch.gap[k] = distance - batch.radii[k];
-        batch.same_side[k] = (ex * nx + ey * ny + ez * nz) / distance;
-        const float width = ax * nx + ay * ny + az * nz -
-                            batch.half_i[k] * std::fabs(px[k] * nx + py[k] * ny + pz[k] * nz) -
-                            batch.half_j[k] * std::fabs(qx[k] * nx + qy[k] * ny + qz[k] * nz) - batch.radii[k];
-        batch.slack[k] = width - bound_error * (batch.half_i[k] + batch.half_j[k] + batch.radii[k]);
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-        const bool is_apart = batch.gap[k] - gap_error * batch.radii[k] > range;
-        const bool is_clear = is_apart && batch.same_side[k] > clearly_same_side && batch.slack[k] >= margin;
-        batch.inactive.marks()[k] = is_clear ? 1 : 0;
-    }
-}
 
 /// What is left of the gaps of pairs whose rods have gone so far, rounding apart. Marks those that have nothing left.
 JOSTLE_VECTORISED void take_off_changes(std::size_t count, const std::uint32_t* i, const std::uint32_t* j,
@@ -173,7 +108,7 @@ void CollisionSearch::search_blocks(const StepGeometry& step) {
 
 void CollisionSearch::search_block(std::size_t block, const StepGeometry& step, Found& found) {
     std::size_t count = 0;
-    Batch batch;
+    PairBatch batch;
     const auto range = static_cast<float>(step.ranges.range),
                margin = static_cast<float>(step.ranges.activation_margin);
     const auto sort_out = [&] {
@@ -213,7 +148,7 @@ void CollisionSearch::search_block(std::size_t block, const StepGeometry& step, 
         batch.half_i[count] = a.half_length;
         batch.half_j[count] = b.half_length;
         batch.radii[count] = a.radius + b.radius;
-        if (++count == Batch::size) sort_out();
+        if (++count == PairBatch::size) sort_out();
     });
     sort_out();
 }
