@@ -80,6 +80,13 @@ def test_numbers_in_the_text_of_the_overview_are_those_of_the_machine():
     assert [words for words in shown if words not in text] == []
 
 
+def test_numbers_of_the_readme_are_those_of_the_overview():
+    numbers = r"\d[\d.,]*\d|\d"
+    item = re.search(r"\[Performance\]\(docs/performance\.md\)(.*?)\n- ", (ROOT / "README.md").read_text(encoding="utf-8"), re.DOTALL)[1]
+    known = set(re.findall(numbers, OVERVIEW.read_text(encoding="utf-8")))
+    assert "ns per rod" in item and set(re.findall(numbers, item)) - known == set()
+
+
 def test_the_overview_names_every_missed_aim_by_its_factor():
     missed = re.findall(r"missed by ([\d.]+) times", PAGE.read_text(encoding="utf-8"))
     text = OVERVIEW.read_text(encoding="utf-8").split("Missed aims")[1]
