@@ -1,5 +1,6 @@
 #include "jostle/contact_problem/projected_sor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 #include <utility>
@@ -34,6 +35,8 @@ constexpr double finest_with_momentum = 2e-3;
 /// With momentum, first where the largest change is this part of that of the first sweep, then whenever it has fallen
 /// to this part, last at so many tolerances.
 constexpr double first_search_part = 0.1, next_search_part = 0.3, last_search_tolerances = 2.0;
+/// And once more where new contacts have settled to this: those found at the solution cost as many sweeps again.
+constexpr double settled_tolerances = 6.0;
 /// Beginning warm, candidates from so many tolerances on are nearly the solution. With momentum single contacts still
 /// change by more.
 constexpr double near_tolerances = 10.0, near_tolerances_with_momentum = 30.0;
@@ -90,6 +93,7 @@ public:
             gauss_seidel_.extend();
             momentum_.expect_larger_changes();
             found_more_ = true;
+            next_search_change_ = std::max(next_search_change_, settled_tolerances * settings_.tolerance);
         }
         bool sweep_is_judged = !std::exchange(at_candidate_, false) || grown;
         if (std::exchange(verify_first_, false) && verify()) return verified_end();
