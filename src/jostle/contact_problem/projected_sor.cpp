@@ -35,7 +35,7 @@ constexpr double finest_with_momentum = 2e-3;
 /// With momentum, first where the largest change is this part of that of the first sweep, then whenever it has fallen
 /// to this part, last at so many tolerances.
 constexpr double first_search_part = 0.1, next_search_part = 0.3, last_search_tolerances = 2.0;
-/// And once more where new contacts have settled to this: those found at the solution cost as many sweeps again.
+/// And once more where new contacts have settled to so many: those found at the solution cost as many sweeps again.
 constexpr double settled_tolerances = 6.0;
 /// Beginning warm, candidates from so many tolerances on are nearly the solution. With momentum single contacts still
 /// change by more.
@@ -93,7 +93,8 @@ public:
             gauss_seidel_.extend();
             momentum_.expect_larger_changes();
             found_more_ = true;
-            next_search_change_ = std::max(next_search_change_, settled_tolerances * settings_.tolerance);
+            if (next_search_change_ > 0.0)
+                next_search_change_ = std::max(next_search_change_, settled_tolerances * settings_.tolerance);
         }
         bool sweep_is_judged = !std::exchange(at_candidate_, false) || grown;
         if (std::exchange(verify_first_, false) && verify()) return verified_end();
@@ -220,7 +221,7 @@ private:
     SweepMomentum momentum_;
     std::uint64_t begun_ = 0;  ///< sweeps before it began again
     std::uint64_t next_search_ = early_search, next_verification_ = 0;
-    double next_search_change_ = 0.0;  ///< the same by the largest change
+    double next_search_change_ = 0.0;  ///< the same by the largest change; 0: by that of the next sweep
     bool is_near_ = false;             ///< whether the last search was nearly at the solution
     bool found_more_ = false;          ///< by the last search
     bool at_candidate_ = false, sweep_all_ = false;
