@@ -245,6 +245,19 @@ void BlockGaussSeidel<Real>::carry_on_velocities(double beta) {
 }
 
 template <class Real>
+double BlockGaussSeidel<Real>::violation() {
+    all_messages_.bring(std::span(velocities_));
+    double largest = 0.0;
+    for (Colour& colour : colours_)
+        colour.for_own([&](auto& group) {
+            largest = std::max(largest, parallel_max(group.items.size(), 0.0, [&](std::size_t k) {
+                                   return jostle::violation(group.items[k], velocities_.data());
+                               }));
+        });
+    return problem_.domain().ranks().largest(largest);
+}
+
+template <class Real>
 void BlockGaussSeidel<Real>::read_velocities(ContactSolution& solution) const {
     std::vector<ContactVelocity>& velocities = solution.velocities;
     parallel_for(velocities.size(), [&](std::size_t local) { velocities[local] = velocities_[local].velocity(); });

@@ -47,6 +47,9 @@ public:
     /// `beta` times; 0 after another sweep. Returns what `sweep` does. Not where contacts push a plane.
     double sweep_on(double beta);
 
+    /// By how much a contact violates its conditions, at most, as the sweeps have left them; rounded as they are.
+    double violation();
+
     /// Fills in the velocities, of the rods and of the box, as the sweeps have left them.
     void read_velocities(ContactSolution& solution) const;
 

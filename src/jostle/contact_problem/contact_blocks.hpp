@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -102,6 +103,23 @@ bool may_push(const CoupledBlock& pair, const SpatialVector<Real>* velocities, d
     return std::ranges::any_of(pair.touching(), [&](const CoupledBlock::Point& point) {
         return point.gamma > 0.0 || point.gap_velocity(i, j) < limit;
     });
+}
+
+/// max |min(A_ll gamma_l, gap velocity)| over the contacts: 0 where each either pushes with its gap staying closed, or
+/// lets it open.
+template <class Real>
+double violation(const ScalarBlock<Real>& contact, const SpatialVector<Real>* velocities) {
+    return std::abs(std::min(contact.diagonal * contact.gamma, contact.gap_velocity(velocities)));
+}
+template <class Real>
+double violation(const CoupledBlock& pair, const SpatialVector<Real>* velocities) {
+    const ContactVelocity i = velocity_of_body(pair.i, velocities), j = velocity_of_body(pair.j, velocities);
+    double largest = 0.0;
+    for (std::uint32_t a = 0; a < pair.count; ++a) {
+        const CoupledBlock::Point& point = pair.points[a];
+        largest = std::max(largest, std::abs(std::min(pair.matrix[a][a] * point.gamma, point.gap_velocity(i, j))));
+    }
+    return largest;
 }
 
 /// Calls body(number of the contact, its force) for each.

@@ -32,17 +32,14 @@ constexpr std::uint64_t early_search = 6;
 constexpr double search_tolerances = 10.0;
 /// Momentum is quick to this part of the deepest overlap, and stands still before finer tolerances.
 constexpr double finest_with_momentum = 2e-3;
-/// With momentum, first where the largest change is this part of that of the first sweep, then whenever it has fallen
-/// to this part, last at so many tolerances.
-constexpr double first_search_part = 0.1, next_search_part = 0.3, last_search_tolerances = 2.0;
-/// And once more where new contacts have settled to so many: those found at the solution cost as many sweeps again.
-constexpr double settled_tolerances = 6.0;
-/// Beginning warm, candidates from so many tolerances on are nearly the solution. With momentum single contacts still
-/// change by more.
-constexpr double near_tolerances = 10.0, near_tolerances_with_momentum = 30.0;
-/// With momentum single contacts change by several times what the residual is: it is computed from this many
-/// tolerances on.
-constexpr double early_verification_tolerances = 3.0;
+/// With momentum, once in so many sweeps of the first 32, and then once in so many.
+constexpr std::uint64_t sweeps_between_searches = 8, many_sweeps = 32, sweeps_between_late_searches = 16;
+/// Beginning warm, candidates from so many tolerances on are nearly the solution.
+constexpr double near_tolerances = 10.0;
+/// With momentum single contacts change by far more than they violate their conditions. That is looked at once in so
+/// many sweeps, where changes are below so many tolerances; the residual is computed if it is this part of a tolerance.
+constexpr std::uint64_t sweeps_between_looks = 4;
+constexpr double first_look_tolerances = 30.0, solved_part = 0.95;
 /// Every so many sweeps it is asked whether to go on.
 constexpr std::uint64_t sweeps_between_questions = 4;
 
@@ -93,8 +90,6 @@ public:
             gauss_seidel_.extend();
             momentum_.expect_larger_changes();
             found_more_ = true;
-            if (next_search_change_ > 0.0)
-                next_search_change_ = std::max(next_search_change_, settled_tolerances * settings_.tolerance);
         }
         bool sweep_is_judged = !std::exchange(at_candidate_, false) || grown;
         if (std::exchange(verify_first_, false) && verify()) return verified_end();
@@ -132,10 +127,10 @@ public:
         return outcome_.status == LcpStatus::converged || outcome_.status == LcpStatus::not_finite;
     }
 
-    /// Whether the last sweep changed no gap by much.
+    /// Whether the last sweep changed no gap by much; with momentum, whether this is not the first search.
     bool is_near_solution() const {
-        const double near = has_momentum() ? near_tolerances_with_momentum : near_tolerances;
-        return warm_ && change_ <= near * settings_.tolerance;
+        if (has_momentum()) return outcome_.iterations > sweeps_between_searches;
+        return warm_ && change_ <= near_tolerances * settings_.tolerance;
     }
 
 private:
@@ -165,7 +160,7 @@ private:
     }
 
     bool is_time_to_search() {
-        if (!(has_momentum() ? has_fallen_to_next_search() : has_come_to_next_search())) return false;
+        if (!has_come_to_next_search()) return false;
         plan_next_search();
         gauss_seidel_.read_velocities(solution_);
         at_candidate_ = true;
@@ -174,34 +169,36 @@ private:
 
     /// After the search at this stop.
     void plan_next_search() {
-        next_search_ = begun_ + 3 * (outcome_.iterations - begun_);
-        next_search_change_ = next_search_part * change_;
+        next_search_ = outcome_.iterations + sweeps_to_next_search(outcome_.iterations - begun_);
         is_near_ = change_ <= search_tolerances * settings_.tolerance;
         found_more_ = false;
     }
 
-    /// Contacts that are found at the solution cost as many sweeps again: if there were new ones at the last search,
-    /// the next one is before that.
-    bool has_come_to_next_search() const {
-        const bool comes_near = !is_near_ && found_more_ && change_ <= search_tolerances * settings_.tolerance;
-        return comes_near || outcome_.iterations >= next_search_;
+    /// After so many sweeps.
+    std::uint64_t sweeps_to_next_search(std::uint64_t sweeps) const {
+        if (!has_momentum()) return 2 * sweeps;
+        return sweeps < many_sweeps ? sweeps_between_searches : sweeps_between_late_searches;
     }
 
-    bool has_fallen_to_next_search() {
-        if (next_search_change_ == 0.0) next_search_change_ = first_search_part * change_;
-        return change_ <= next_search_change_ && change_ > last_search_tolerances * settings_.tolerance;
+    /// Contacts that are found at the solution cost as many sweeps again: without momentum, if there were new ones at
+    /// the last search, the next one is before that.
+    bool has_come_to_next_search() const {
+        if (outcome_.iterations >= next_search_) return true;
+        return !has_momentum() && !is_near_ && found_more_ && change_ <= search_tolerances * settings_.tolerance;
     }
 
     bool has_momentum() const { return may_have_momentum_ && momentum_.is_trusted(); }
 
-    /// The residual is near the last change, or below it; it is computed where that is small, and now and then for the
-    /// paper's norm.
-    bool may_be_solved() const {
+    /// The residual is near the last change, or below it, with momentum far below. It is computed where it seems to be
+    /// small, and now and then for the paper's norm.
+    bool may_be_solved() {
         if (outcome_.iterations >= settings_.max_iterations) return true;
         const bool may_be_verified = outcome_.iterations >= next_verification_;
         if (settings_.residual != LcpResidual::length) return may_be_verified;
-        const bool may_be_near = has_momentum() && may_be_verified;
-        return !(change_ > (may_be_near ? early_verification_tolerances : 1.0) * settings_.tolerance);
+        if (!(change_ > settings_.tolerance)) return true;
+        const bool may_be_near = has_momentum() && change_ <= first_look_tolerances * settings_.tolerance;
+        if (!may_be_near || outcome_.iterations % sweeps_between_looks != 0) return false;
+        return problem_.time_step() * gauss_seidel_.violation() <= solved_part * settings_.tolerance;
     }
 
     End verified_end() {
@@ -221,9 +218,8 @@ private:
     SweepMomentum momentum_;
     std::uint64_t begun_ = 0;  ///< sweeps before it began again
     std::uint64_t next_search_ = early_search, next_verification_ = 0;
-    double next_search_change_ = 0.0;  ///< the same by the largest change; 0: by that of the next sweep
-    bool is_near_ = false;             ///< whether the last search was nearly at the solution
-    bool found_more_ = false;          ///< by the last search
+    bool is_near_ = false;     ///< whether the last search was nearly at the solution
+    bool found_more_ = false;  ///< by the last search
     bool at_candidate_ = false, sweep_all_ = false;
     double change_ = 0.0;  ///< of a gap by the last sweep, at most
 };

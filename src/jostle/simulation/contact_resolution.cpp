@@ -22,7 +22,7 @@ struct Relinearisation {
     double max_overlap;
     int max_times;
 };
-constexpr Relinearisation where_forces_turn_rods{0.01, 5}, where_noise_does{0.03, 2};
+constexpr Relinearisation where_forces_turn_rods{0.01, 12}, where_noise_does{0.03, 2};
 
 /// The first of the two solutions of a step only says where paths are mirrored: it is solved to so many tolerances, but
 /// no coarser than to this part of how far the known motion takes rods in the mean (decision 0080).

@@ -1,5 +1,5 @@
 // Sweeps that are carried on by momentum keep the velocities that belong to the forces, V = M D gamma, also where
-// contacts are added between two of them.
+// contacts are added between two of them, and know how far these forces are from a solution.
 
 #include <doctest/doctest.h>
 
@@ -58,7 +58,13 @@ TEST_CASE("contacts that are added between sweeps leave the momentum of the othe
         sweeps.sweep_on(beta);
         sweeps.read_velocities(solution);
         const std::vector<ContactVelocity> kept = solution.velocities;
+        const double violation = sweeps.violation();
         sweeps.refresh(solution);
+        std::vector<double> gap_velocity(problem.size());
+        problem.gap_velocities(solution, gap_velocity);
+        const double residual = lcp_residual(problem.lcp(), LcpResidual::length, solution.gamma, gap_velocity);
+        REQUIRE(residual > 1e-3);
+        CHECK(problem.time_step() * violation == doctest::Approx(residual).epsilon(1e-9));
         REQUIRE(largest(kept) > 0.1);
         CHECK(largest_difference(kept, solution.velocities) < 1e-11 * largest(kept));
     };
