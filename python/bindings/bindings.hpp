@@ -2,7 +2,14 @@
 
 #include <pybind11/pybind11.h>
 
+namespace jostle {
+struct Average;
+}
+
 namespace jostle::python {
+
+/// The keywords of python/jostle/statistics.py, `Average`.
+pybind11::dict entries_of(const Average& found);
 
 // What each file adds to the extension module `_jostle`.
 void bind_errors(pybind11::module_& module);

@@ -240,6 +240,11 @@ std::string SimulationInPython::summary() const {
     return measurement_.summary(simulation_).dump();
 }
 
+py::dict SimulationInPython::average_of(const Numbers& rows) const {
+    require_between_steps();
+    return entries_of(measurement_.average_of(numbers_in(rows, "rows"), simulation_));
+}
+
 std::size_t SimulationInPython::row_count() const {
     require_rest();
     return measurement_.series().rows();
@@ -360,6 +365,7 @@ void bind_simulation(py::module_& module) {
         .def("row_count", &SimulationInPython::row_count)
         .def("is_complete", &SimulationInPython::is_complete)
         .def("summary", &SimulationInPython::summary)
+        .def("average_of", &SimulationInPython::average_of)
         .def("last_field", &SimulationInPython::last_field)
         .def("field_columns",
              [](const SimulationInPython& self) { return described(field_columns(self.scene().scene).about()); })

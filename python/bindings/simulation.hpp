@@ -44,6 +44,7 @@ public:
     py::array series() const;      ///< (rows, columns)
     py::array last_field() const;  ///< (rows, columns); (0, columns) before the first
     std::string summary() const;   ///< JSON
+    py::dict average_of(const Numbers& rows) const;
     std::size_t row_count() const;
     void save(const std::string& folder) const;
 

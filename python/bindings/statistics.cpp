@@ -4,11 +4,7 @@
 
 namespace jostle::python {
 
-namespace {
-
-/// The keywords of python/jostle/statistics.py, `Average`.
-py::dict average_of(const Numbers& series) {
-    const Average found = average(numbers_in(series, "series"));
+py::dict entries_of(const Average& found) {
     py::dict entries;
     entries["mean"] = found.mean;
     entries["standard_error"] = found.standard_error ? py::object(py::float_(*found.standard_error)) : py::none();
@@ -19,10 +15,8 @@ py::dict average_of(const Numbers& series) {
     return entries;
 }
 
-}  // namespace
-
 void bind_statistics(py::module_& module) {
-    module.def("average", &average_of);
+    module.def("average", [](const Numbers& series) { return entries_of(average(numbers_in(series, "series"))); });
 }
 
 }  // namespace jostle::python

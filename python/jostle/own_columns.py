@@ -4,7 +4,7 @@ import numpy as np
 
 from ._arrays import number
 from ._jostle import refuse
-from .statistics import average
+from .statistics import Average
 
 
 class OwnColumns:
@@ -57,8 +57,8 @@ class OwnColumns:
         own = [np.array(values[:count] + [np.nan] * (count - len(values))) for values in self._values.values()]
         return np.ascontiguousarray(np.column_stack([table, *own])).view(np.dtype([(name, float) for name in names]))[:, 0]
 
-    def in_summary(self, summary):
-        """The summary with the averages of these columns, over the rows of production that have a value."""
+    def in_summary(self, summary, average_of):
+        """The summary with the averages of these columns, over the rows of production that have a value: average_of(rows)."""
         if not self._functions:
             return summary
         pressure = summary["pressure"]
@@ -66,14 +66,14 @@ class OwnColumns:
         summary["columns"] = {}
         for name, (_, unit, _) in self._functions.items():
             values = np.array(self._values[name])[-summary["production_rows"]:]
-            summary["columns"][name] = _entry(values[np.isfinite(values)], unit, withheld)
+            summary["columns"][name] = _entry(values, unit, withheld, average_of)
         return summary
 
 
-def _entry(values, unit, withheld):
-    if len(values) == 0:
+def _entry(values, unit, withheld, average_of):
+    if np.isnan(values).all():
         return {"mean": None, "standard_error": None, "n_eff": 0.0, "unit": unit, "no_standard_error_because": "no row of production has it"}
-    found = average(values)
+    found = Average(**average_of(values))
     entry = {"mean": found.mean, "standard_error": found.standard_error, "n_eff": found.n_eff,
              "standard_deviation": found.standard_deviation, "correlation_time_rows": found.correlation_time_rows, "unit": unit}
     if withheld:

@@ -338,7 +338,7 @@ class Simulation:
         >>> bool(abs(Z["mean"] - 1.52) < 4 * Z["standard_error"])            # Carnahan and Starling
         True
         """
-        return self._own.in_summary(json.loads(self._core.summary()))
+        return self._own.in_summary(json.loads(self._core.summary()), self._core.average_of)
 
     @property
     def field(self):

@@ -35,6 +35,8 @@ struct StepGeometry {
     std::size_t own = std::numeric_limits<std::size_t>::max();
     double mean_displacement = 0.0;  ///< over the rods of all ranks
 
+    /// Of the moment of the normals.
+    ArmAxes arm_axes() const { return {rods.axis, known.axis, normals_after}; }
     std::size_t own_rods() const { return std::min(own, rods.size()); }
 };
 

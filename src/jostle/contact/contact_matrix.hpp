@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "jostle/contact/arm_axes.hpp"
 #include "jostle/contact/contacts.hpp"
 #include "jostle/rods/forces.hpp"
 #include "jostle/rods/velocities.hpp"
@@ -38,9 +39,9 @@ double gap_rate(const ContactLike& contact, const ContactVelocity& i, const Cont
 }
 
 /// The same where rods (N) move with these velocities; fixed bodies stay.
-inline double gap_rate(const Contact& contact, const Rods& rods, const Velocities& velocities) {
+inline double gap_rate(const Contact& contact, const ArmAxes& axes, const Velocities& velocities) {
     const auto velocity = [&](std::uint32_t body) {
-        return is_fixed(body) ? ContactVelocity{} : contact_velocity(velocities, body, rods.axis[body]);
+        return is_fixed(body) ? ContactVelocity{} : contact_velocity(velocities, body, axes(body));
     };
     return gap_rate(contact, velocity(contact.i), velocity(contact.j));
 }

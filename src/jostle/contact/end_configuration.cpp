@@ -56,7 +56,7 @@ void EndConfiguration::place_rods() {
     std::vector<Vec3> centres(rows.size()), axes(rows.size());
     parallel_for(rows.size(), [&](std::size_t k) {
         centres[k] = centre_at_end(rods, rows[k], known_velocity, velocity[k], time_step);
-        axes[k] = axis_at_end(rods, rows[k], known_velocity, velocity[k], time_step);
+        axes[k] = axis_at_end(rods, rows[k], known_velocity, velocity[k], arm_axes, time_step);
     });
     placed_centre = std::move(centres);
     placed_axis = std::move(axes);

@@ -27,9 +27,8 @@ inline Vec3 centre_at_end(const Rods& rods, std::uint32_t row, const Velocities&
     return centre_after(rods.centre[row], known.linear[row] + by_contacts.centre, time_step);
 }
 inline Vec3 axis_at_end(const Rods& rods, std::uint32_t row, const Velocities& known,
-                        const ContactVelocity& by_contacts, double time_step) {
-    const Vec3& axis = rods.axis[row];
-    return axis_after(axis, known.angular[row] + cross(axis, by_contacts.axis_rate), time_step);
+                        const ContactVelocity& by_contacts, const ArmAxes& axes, double time_step) {
+    return axis_after(rods.axis[row], known.angular[row] + cross(axes(row), by_contacts.axis_rate), time_step);
 }
 
 /// Rods at the end of a step in which contact forces act: those with contacts where the forces take them, the others
@@ -40,6 +39,7 @@ struct EndConfiguration {
     const Velocities& known_velocity;  ///< (N)
     const Configuration& known;        ///< (N) after the known motion
     double time_step;
+    ArmAxes arm_axes;
     std::span<const std::uint32_t> local_index{};  ///< (N) a rod's number among those with contacts, or no_local_index
     std::span<const std::uint32_t> rows{};         ///< (n) of the rods with contacts
     std::vector<ContactVelocity> velocity{};       ///< (n) theirs by contact forces
@@ -71,7 +71,7 @@ struct EndConfiguration {
         const std::uint32_t local = local_index[row];
         if (local == no_local_index) return known.axis[row];
         if (local < placed_axis.size()) return placed_axis[local];
-        return axis_at_end(rods, row, known_velocity, velocity[local], time_step);
+        return axis_at_end(rods, row, known_velocity, velocity[local], arm_axes, time_step);
     }
     /// The pair of rods as it is there.
     PairGeometry pair(const Box& box, const PairKey& key) const {

@@ -26,12 +26,12 @@ struct GapDrift::Side {
 };
 
 GapDrift::Side GapDrift::side_of_rod(std::uint32_t row, double arm) const {
-    return {{rods_.axis[row], own_[row]}, arm, 0.5 * rods_.length[row]};
+    return {{axes_(row), own_[row]}, arm, 0.5 * rods_.length[row]};
 }
 
 GapDrift::Side GapDrift::side_of_fixed_rod(const Contact& contact, const Image& image) const {
     const PairGeometry pair = pair_with(*box_.fixed_rods(), copy_of(contact, image, box_), rods_, contact.j,
-                                        rods_.centre[contact.j], rods_.axis[contact.j]);
+                                        rods_.centre[contact.j], axes_(contact.j));
     const double along = dot(pair.centre_separation + contact.arm_j * pair.axis_j, pair.axis_i);
     return {{pair.axis_i, RodMobility{0.0, 0.0, 0.0}}, std::clamp(along, -pair.half_i, pair.half_i), pair.half_i};
 }

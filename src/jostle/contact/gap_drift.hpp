@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "jostle/contact/arm_axes.hpp"
 #include "jostle/contact/contacts.hpp"
 #include "jostle/rods/box.hpp"
 #include "jostle/rods/wall.hpp"
@@ -20,9 +21,10 @@ namespace jostle {
 /// and of every point at `arm`, whose axis is shortened by its own turning: -2 kT mu_r arm (axis.e), outwards.
 class GapDrift {
 public:
-    /// `own`: (N) mobility of each rod alone. Holds references.
-    GapDrift(const Rods& rods, const Box& box, std::span<const RodMobility> own)
-        : rods_(rods), box_(box), own_(own), walls_(walls_of(box)) {}
+    /// `axes`: of the moment that contacts have their normals of. `own`: (N) mobility of each rod alone. Holds
+    /// references.
+    GapDrift(const Rods& rods, const ArmAxes& axes, const Box& box, std::span<const RodMobility> own)
+        : rods_(rods), axes_(axes), box_(box), own_(own), walls_(walls_of(box)) {}
 
     /// Over kT (velocity per energy).
     double operator()(const Contact& contact, const Image& image) const;
@@ -35,6 +37,7 @@ private:
     double between(const Side& i, const Side& j, const Vec3& normal, double distance) const;
 
     const Rods& rods_;
+    ArmAxes axes_;
     const Box& box_;
     std::span<const RodMobility> own_;
     std::vector<Wall> walls_;

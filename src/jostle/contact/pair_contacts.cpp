@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jostle/rods/configuration.hpp"
+
 namespace jostle {
 
 namespace {
@@ -89,11 +91,12 @@ EndPoints end_points(const PairGeometry& pair, const Point& nearest, double rang
 
 /// The pair after a part of its way.
 PairGeometry on_the_way(const MovingPair& pair) {
-    const auto between = [part = pair.normals_after](const Vec3& a, const Vec3& b) { return a + part * (b - a); };
-    PairGeometry here = pair.before;
-    here.centre_separation = between(pair.before.centre_separation, pair.after.centre_separation);
-    here.axis_i = normalised(between(pair.before.axis_i, pair.after.axis_i));
-    here.axis_j = normalised(between(pair.before.axis_j, pair.after.axis_j));
+    const PairGeometry &before = pair.before, &after = pair.after;
+    const double part = pair.normals_after;
+    PairGeometry here = before;
+    here.centre_separation += part * (after.centre_separation - before.centre_separation);
+    here.axis_i = axis_between(before.axis_i, after.axis_i, part);
+    here.axis_j = axis_between(before.axis_j, after.axis_j, part);
     return here;
 }
 

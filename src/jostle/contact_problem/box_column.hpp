@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "jostle/contact/arm_axes.hpp"
 #include "jostle/contact/contacts.hpp"
 #include "jostle/rods/body.hpp"
 #include "jostle/rods/rods.hpp"
@@ -19,10 +20,10 @@ struct BoxColumn {
     bool joins_all() const { return mobility > 0.0 && !plane; }
 
     /// w: by how much faster the gap of a contact that touches opens than the body moves.
-    double of(const Contact& contact, const Rods& rods) const {
+    double of(const Contact& contact, const Rods& rods, const ArmAxes& axes) const {
         if (plane) return contact.i == *plane ? 1.0 : 0.0;
         if (is_fixed(contact.i)) return 0.0;
-        const Vec3 arms = contact.arm_i * rods.axis[contact.i] - contact.arm_j * rods.axis[contact.j];
+        const Vec3 arms = contact.arm_i * axes(contact.i) - contact.arm_j * axes(contact.j);
         const double touching = 0.5 * (rods.diameter[contact.i] + rods.diameter[contact.j]);  // as in the stress
         return (touching + dot(arms, contact.normal)) / 3.0;
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "jostle/contact_problem/contact_solution.hpp"
@@ -19,13 +20,14 @@ class ContactProblem {
 public:
     /// `b`: (contacts) the velocity of each gap without forces; empty where forces are not sought. `compliance`: kappa
     /// of the DelassusOperator. `start`: (contacts) forces to begin from; empty: from 0. `box`: one that forces open.
-    /// Holds references to rods, mobility and domain.
+    /// `axes`: of the rods; by default as they lie. Holds references to rods, mobility and domain.
     ContactProblem(const Rods& rods, const MobilityOperator& mobility, Contacts contacts, std::vector<double> b,
                    double time_step, double compliance = 0.0, std::vector<double> start = {},
-                   const Domain& domain = Domain::whole(), const BoxColumn& box = {})
+                   const Domain& domain = Domain::whole(), const BoxColumn& box = {},
+                   std::optional<ArmAxes> axes = std::nullopt)
         : contacts_(std::move(contacts)),
           contact_matrix_(contacts_, rods.id, included(mobility), domain.owned_of(rods.size())),
-          matrix_(contact_matrix_, rods, mobility, compliance, box),
+          matrix_(contact_matrix_, rods, mobility, compliance, box, axes),
           domain_(domain),
           b_(std::move(b)),
           start_(std::move(start)),

@@ -5,8 +5,14 @@
 namespace jostle {
 
 DelassusOperator::DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods,
-                                   const MobilityOperator& mobility, double compliance, const BoxColumn& box)
-    : contact_matrix_(contact_matrix), all_rods_(rods), mobility_(mobility), compliance_(compliance), box_(box) {
+                                   const MobilityOperator& mobility, double compliance, const BoxColumn& box,
+                                   std::optional<ArmAxes> axes)
+    : contact_matrix_(contact_matrix),
+      all_rods_(rods),
+      axes_(axes.value_or(ArmAxes{rods.axis})),
+      mobility_(mobility),
+      compliance_(compliance),
+      box_(box) {
     extend();
 }
 
@@ -16,7 +22,7 @@ void DelassusOperator::extend() {
     rods_.resize(rows.size());
     parallel_for(rows.size() - known_rods, [&](std::size_t k) {
         const std::size_t local = known_rods + k;
-        rods_[local] = {all_rods_.axis[rows[local]], mobility_.of_rod(rows[local])};
+        rods_[local] = {axes_(rows[local]), mobility_.of_rod(rows[local])};
     });
     diagonal_.resize(contact_matrix_.size());
     parallel_for(diagonal_.size() - known_contacts, [&](std::size_t k) {
@@ -27,7 +33,7 @@ void DelassusOperator::extend() {
     column_.resize(contact_matrix_.size());
     parallel_for(diagonal_.size() - known_contacts, [&](std::size_t k) {
         const std::size_t l = known_contacts + k;
-        column_[l] = box_.of(contact_matrix_.contacts().contact[l], all_rods_);
+        column_[l] = column_of(contact_matrix_.contacts().contact[l]);
         diagonal_[l] += (1.0 + compliance_) * box_.mobility * column_[l] * column_[l];
     });
 }

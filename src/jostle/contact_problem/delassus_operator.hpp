@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "jostle/contact/contact_matrix.hpp"
 #include "jostle/contact_problem/box_column.hpp"
 #include "jostle/lcp/linear_operator.hpp"
@@ -14,8 +16,9 @@ namespace jostle {
 /// is one more body: D^T M D then has the square of its column. Holds references.
 class DelassusOperator final : public LinearOperator {
 public:
+    /// `axes`: of the rods; by default as they lie.
     DelassusOperator(const ContactMatrix& contact_matrix, const Rods& rods, const MobilityOperator& mobility,
-                     double compliance = 0.0, const BoxColumn& box = {});
+                     double compliance = 0.0, const BoxColumn& box = {}, std::optional<ArmAxes> axes = std::nullopt);
 
     /// Takes in what the contact matrix has been extended by.
     void extend();
@@ -36,6 +39,8 @@ public:
     bool couples_rods() const { return mobility_.couples_rods(); }
     const MobilityOperator& mobility() const { return mobility_; }
     bool opens_box() const { return box_.mobility > 0.0; }
+    /// How much faster the gap of a contact opens than the box does (BoxColumn).
+    double column_of(const Contact& contact) const { return box_.of(contact, all_rods_, axes_); }
     const BoxColumn& box() const { return box_; }
     double column(std::size_t l) const { return column_[l]; }  ///< w, where the box opens
 
@@ -57,6 +62,7 @@ private:
 
     const ContactMatrix& contact_matrix_;
     const Rods& all_rods_;
+    ArmAxes axes_;
     const MobilityOperator& mobility_;
     double compliance_;
     BoxColumn box_;

@@ -89,4 +89,8 @@ nlohmann::ordered_json Measurement::summary(const Simulation& simulation) const 
     return summarise(scene_, simulation, series_, std::max(sums_.run_max_overlap, now), begin_);
 }
 
+Average Measurement::average_of(std::span<const double> rows, const Simulation& simulation) const {
+    return average_in_window(scene_, simulation, series_, rows, begin_);
+}
+
 }  // namespace jostle

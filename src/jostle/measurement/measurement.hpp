@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <span>
 #include <vector>
 
 #include "jostle/measurement/frame_steps.hpp"
@@ -11,6 +12,7 @@
 #include "jostle/run_files/series_file.hpp"
 #include "jostle/scene/scene.hpp"
 #include "jostle/simulation/simulation.hpp"
+#include "jostle/statistics/time_series.hpp"
 
 namespace jostle {
 
@@ -53,6 +55,8 @@ public:
     /// What summary.json holds, of the rows so far: averages over production with standard errors, the verdict on
     /// equilibrium, and checks (docs/guide/results.md). Errors: InputError if there is no such row yet, or no rod left.
     nlohmann::ordered_json summary(const Simulation& simulation) const;
+    /// The average of a column of one's own over production, with the error bar of those there (`average_in_window`).
+    Average average_of(std::span<const double> rows, const Simulation& simulation) const;
 
     const SeriesTable& series() const { return series_; }
     /// Of series.csv.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -26,6 +27,7 @@ struct SummarisedRun {
     std::optional<SlowColumn> slow_order;
 
     std::size_t first() const { return window.first_row; }
+    std::size_t production_rows() const { return series.rows() - std::min(first(), series.rows()); }
     int dimensions() const { return simulation.box().dimensions(); }
     bool is_thermal() const { return simulation.settings().kT > 0.0; }
     bool has_springs() const { return !scene.springs.file.empty(); }

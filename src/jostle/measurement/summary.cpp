@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "jostle/error/input_error.hpp"
@@ -120,7 +121,7 @@ void add_window(const SummarisedRun& run, Json& summary) {
     if (has_schedule(run.scene))
         summary["schedule"] = {
             {"keys", names_of_schedule(run.scene)}, {"end", schedule_end(run.scene)}, {"in_averages", run.ramped}};
-    summary["production_rows"] = run.series.rows() - std::min(run.first(), run.series.rows());
+    summary["production_rows"] = run.production_rows();
 }
 
 /// Error bars of what does not last are none.
@@ -147,6 +148,25 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     summary["checks"] = summary_checks(run);
     withhold_errors_of_no_state(run, summary);
     return summary;
+}
+
+Average average_in_window(const Scene& scene, const Simulation& simulation, const SeriesTable& series,
+                          std::span<const double> rows, double begin) {
+    const SummarisedRun run = summarised(scene, simulation, series, begin);
+    if (rows.size() != run.production_rows())
+        throw InputError({.key = "rows",
+                          .value = fmt::format("{}", rows.size()),
+                          .problem = "is not their number in production",
+                          .allowed = fmt::format("{}", run.production_rows())});
+    std::vector<double> present;
+    std::optional<SlowColumn> slow = run.slow_order;
+    if (slow) slow->rows.clear();
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        if (std::isnan(rows[row])) continue;
+        present.push_back(rows[row]);
+        if (slow) slow->rows.push_back(run.slow_order->rows[row]);
+    }
+    return slow ? average(present, *slow) : average(present);
 }
 
 }  // namespace jostle

@@ -29,4 +29,10 @@ inline Vec3 axis_after(const Vec3& axis, const Vec3& angular_velocity, double ti
     return rotated(axis, time * angular_velocity);
 }
 
+/// The axis of a rod that has done this part of a turn that is far from half a round: 0 `before`, 1/2 in the middle, 1
+/// `after`.
+inline Vec3 axis_between(const Vec3& before, const Vec3& after, double part) {
+    return normalised(before + part * (after - before));
+}
+
 }  // namespace jostle

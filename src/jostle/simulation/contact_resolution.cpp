@@ -40,7 +40,7 @@ ContactProblem ContactResolution::posed(const MobilityOperator& mobility, Contac
     }
     const double compliance = settings_.corrects_brownian_motion() ? contact_compliance : 0.0;
     return ContactProblem(state_.rods, mobility, std::move(found), std::move(b), settings_.time_step, compliance,
-                          std::move(start), domain_, opening);
+                          std::move(start), domain_, opening, geometry_.arm_axes());
 }
 
 std::optional<ContactSolution> ContactResolution::solve(ContactProblem& problem, StepReport& report) {
@@ -83,7 +83,8 @@ ContactSolution ContactResolution::repelled(const ContactProblem& problem) const
 ContactSolution ContactResolution::reflected(const ContactProblem& problem, const ContactSolution& solution) const {
     const double strain = settings_.flow ? settings_.flow->strain_of_step(state_.clock, settings_.time_step) : 0.0;
     ContactSolution mirrored;
-    mirrored.gamma = reflected_forces(problem, solution, state_, known_, sizes_.own_mobility, settings_, strain);
+    mirrored.gamma = reflected_forces(problem, solution, state_, geometry_.arm_axes(), known_, sizes_.own_mobility,
+                                      settings_, strain);
     problem.complete(mirrored);
     return mirrored;
 }
@@ -150,7 +151,7 @@ Contacts ContactResolution::relinearised(const ContactProblem& problem, const Bo
     };
     for (Contact& contact : more.contact) {
         const double by_rods = gap_rate(contact, velocity(contact.i), velocity(contact.j));
-        const double by_box = solution.box_rate * problem.matrix().box().of(contact, state_.rods);
+        const double by_box = solution.box_rate * problem.matrix().column_of(contact);
         contact.gap_after -= settings_.time_step * (by_rods + by_box);
     }
     return more;
@@ -166,7 +167,7 @@ std::vector<double> ContactResolution::gap_velocities(const Contacts& contacts) 
         const bool found_later = contacts.feature[l] == ContactFeature::relinearised || contact.i == contact.j;
         b[l] = settings_.brownian_correction || found_later
                    ? contact.gap_after / dt
-                   : contact.gap / dt + gap_rate(contact, state_.rods, known_.velocity);
+                   : contact.gap / dt + gap_rate(contact, geometry_.arm_axes(), known_.velocity);
     });
     return b;
 }

@@ -51,7 +51,7 @@ private:
     std::vector<double> gap_velocities_beside(const ContactSolution& acting, const Contacts& contacts,
                                               const ContactMatrix& contact_matrix) const;
     EndConfiguration after_known_motion() const {
-        return {state_.rods, known_.velocity, known_.end, settings_.time_step};
+        return {state_.rods, known_.velocity, known_.end, settings_.time_step, geometry_.arm_axes()};
     }
 
     const State& state_;

@@ -14,22 +14,22 @@ namespace {
 /// By how much the gap of a contact opens in a step without noise, curvature apart: by motions and forces, by a flow
 /// that has sheared the box, by the load of a piston, and by what else has brought the rods to overlap as the step
 /// began.
-double drift_of_motions(const Contact& contact, const Rods& rods, const KnownMotion& known, double time_step,
-                        double strain) {
+double drift_of_motions(const Contact& contact, const Rods& rods, const ArmAxes& axes, const KnownMotion& known,
+                        double time_step, double strain) {
     const bool at_piston = contact.i == known.piston.body;
     const double gap = at_piston ? contact.gap - known.piston.displacement : contact.gap;
     const double begun = std::min(gap, 0.0) + (at_piston ? known.piston.drift : 0.0);
     const double sheared = strain * contact.normal.x * contact.normal.y * contact_radii(contact, rods);
     if (known.drift.size() == 0) return begun + sheared;
-    return begun + sheared + time_step * gap_rate(contact, rods, known.drift);
+    return begun + sheared + time_step * gap_rate(contact, axes, known.drift);
 }
 
 }  // namespace
 
 std::vector<double> reflected_forces(const ContactProblem& problem, const ContactSolution& solution, const State& state,
-                                     const KnownMotion& known, std::span<const RodMobility> own,
+                                     const ArmAxes& axes, const KnownMotion& known, std::span<const RodMobility> own,
                                      const SimulationSettings& settings, double strain) {
-    const GapDrift curvature(state.rods, state.box, own);
+    const GapDrift curvature(state.rods, axes, state.box, own);
     const double dt = settings.time_step;
     std::vector<double> gamma = solution.gamma;
     parallel_for(gamma.size(), [&](std::size_t l) {
@@ -38,7 +38,7 @@ std::vector<double> reflected_forces(const ContactProblem& problem, const Contac
         const double compliant = problem.matrix().diagonal()[l];
         const double rigid = compliant - problem.matrix().compliance(l);
         if (!(rigid > 0.0)) return;
-        const double drift = drift_of_motions(contact, state.rods, known, dt, strain) +
+        const double drift = drift_of_motions(contact, state.rods, axes, known, dt, strain) +
                              settings.kT * dt * curvature(contact, problem.contacts().image[l]);
         const double sigma = std::sqrt(2.0 * settings.kT * dt * rigid);
         gamma[l] *= compliant / rigid * reflected_part(compliant * gamma[l] * dt, drift, sigma);

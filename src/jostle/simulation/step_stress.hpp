@@ -16,6 +16,7 @@ struct ResolvedStep {
     const Contacts& contacts;
     const ContactSolution& solution;
     const Domain& domain;
+    ArmAxes arm_axes;  ///< of the contacts
 };
 
 /// Fills in the report's stresses, and `moments` if the settings ask for them. `half_way_axis`: scratch.

@@ -70,7 +70,7 @@ struct Moves {
         return {rods_before, in_box, known, farthest_known, {displacement_limit, skin, margin, range}, normals_after};
     }
     EndConfiguration end() const {
-        return {rods_before, known_velocity, known, 1.0, local_index, rows, velocity, displacement};
+        return {rods_before, known_velocity, known, 1.0, {rods_before.axis}, local_index, rows, velocity, displacement};
     }
     Configuration all_at_end() const {
         Configuration all;

@@ -79,7 +79,7 @@ TEST_CASE("how fast noise opens a gap is the trace of M times its second derivat
         Rods touching = rods;  // the formula is that of rods that touch
         const double distance = contacts.contact[0].gap + 1.0;
         touching.diameter = {distance, distance};
-        const GapDrift drift(touching, open, mobility);
+        const GapDrift drift(touching, {touching.axis}, open, mobility);
         CHECK(drift(contacts.contact[0], {}) == doctest::Approx(by_differences(touching, gap_of)).epsilon(1e-4));
     }
 }
@@ -104,7 +104,7 @@ TEST_CASE("the same at planes, in a sphere and in a tube, and at a fixed rod") {
             Rods touching = rods;
             touching.diameter[0] += 2.0 * gap(rods);
             const Contact contact = contact_with_wall(wall, touching, 0, arm);
-            const GapDrift drift(touching, box, mobility);
+            const GapDrift drift(touching, {touching.axis}, box, mobility);
             CHECK(drift(contact, {}) == doctest::Approx(by_differences(touching, gap)).epsilon(1e-4));
         }
     }
@@ -122,6 +122,6 @@ TEST_CASE("the same at planes, in a sphere and in a tube, and at a fixed rod") {
     };
     Rods touching = rods;
     touching.diameter[0] += 2.0 * contacts.contact[0].gap;
-    const GapDrift drift(touching, pillar, mobility);
+    const GapDrift drift(touching, {touching.axis}, pillar, mobility);
     CHECK(drift(contacts.contact[0], {}) == doctest::Approx(by_differences(touching, gap)).epsilon(1e-4));
 }

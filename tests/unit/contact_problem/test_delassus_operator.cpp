@@ -1,10 +1,13 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <random>
 
 #include "jostle/contact/find_contacts.hpp"
+#include "jostle/contact/pair_contacts.hpp"
 #include "jostle/contact_problem/delassus_operator.hpp"
+#include "jostle/math/rotation.hpp"
 #include "jostle/mobility/drag.hpp"
 #include "jostle/mobility/drag_mobility.hpp"
 #include "support/assemblies.hpp"
@@ -44,5 +47,84 @@ TEST_CASE("A is symmetric and positive semi-definite, and its diagonal is as tol
         CHECK((matrix - matrix.transpose()).norm() < 1e-13 * size);
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix);
         CHECK(eigen.eigenvalues()(0) > -1e-12 * size);
+    }
+}
+
+namespace {
+
+/// The gap of two rods, and (grad gap) M (grad gap) by differences: each rod along and across its axis, and about two
+/// axes across it.
+double gap_of(const Rods& rods) {
+    return pair_gap(pair_geometry(rods, 0, 1, rods.centre[1] - rods.centre[0], rods.axis[0], rods.axis[1]));
+}
+double mobility_of_gap(const Rods& rods, const MobilityOperator& mobility) {
+    const double h = 1e-5;
+    double sum = 0.0;
+    for (std::size_t row = 0; row < rods.size(); ++row) {
+        const RodMobility own = mobility.of_rod(row);
+        const Vec3 axis = rods.axis[row], first = any_perpendicular(axis), second = cross(axis, first);
+        const auto slope = [&](const Vec3& along, const Vec3& about) {
+            Rods ahead = rods, behind = rods;
+            ahead.centre[row] += h * along;
+            behind.centre[row] -= h * along;
+            ahead.axis[row] = rotated(axis, h * about);
+            behind.axis[row] = rotated(axis, -h * about);
+            return (gap_of(ahead) - gap_of(behind)) / (2.0 * h);
+        };
+        const auto squared = [](double x) { return x * x; };
+        sum += own.parallel * squared(slope(axis, {}));
+        for (const Vec3& across : {first, second})
+            sum += own.perpendicular * squared(slope(across, {})) + own.rotational * squared(slope({}, across));
+    }
+    return sum;
+}
+
+Rods two_rods(const Vec3& between, const Vec3& axis_i, const Vec3& axis_j) {
+    Rods rods;
+    rods.push_back(0, {5, 5, 5}, normalised(axis_i), 4.0, 1.0);
+    rods.push_back(1, Vec3{5, 5, 5} + between, normalised(axis_j), 3.0, 1.0);
+    return rods;
+}
+
+}  // namespace
+
+TEST_CASE("of rods that move and turn, A is that of rods half way: with their normals, arms, and axes") {
+    const Box box{{40, 40, 40}, {false, false, false}};
+    const DragMobility model([](double length, double diameter) { return capsule_drag(length, diameter, 1.0); });
+    struct Case {
+        const char* name;
+        Rods before, after;
+    };
+    for (const Case& test_case : {Case{"sides", two_rods({0.2, 0.3, 1.0}, {1, 0.1, 0}, {0.1, 1, 0}),
+                                       two_rods({0.4, 0.1, 0.8}, {1, 0.4, 0.1}, {0.3, 1, -0.2})},
+                                  Case{"end and side", two_rods({0.3, 2.5, 0.1}, {1, 0, 0}, {0.4, 1, 0.3}),
+                                       two_rods({0.1, 2.3, 0.1}, {1, 0.3, 0}, {0.1, 1, 0.5})},
+                                  Case{"ends", two_rods({3.7, 0.6, 0.3}, {1, 0, 0.1}, {1, 0.5, 0.3}),
+                                       two_rods({3.5, 0.5, 0.2}, {1, 0.2, 0.3}, {1, 0.7, 0.1})}}) {
+        CAPTURE(test_case.name);
+        const Rods &before = test_case.before, &after = test_case.after;
+        const auto geometry = [](const Rods& rods) {
+            return pair_geometry(rods, 0, 1, rods.centre[1] - rods.centre[0], rods.axis[0], rods.axis[1]);
+        };
+        const PairGeometry first = geometry(before), last = geometry(after);
+        Contacts contacts;
+        append_moving_contacts({0, 1, {}}, {first, nearest_points(first), last, 0.5}, 1.0, 3, contacts);
+        REQUIRE(contacts.size() == 1);
+
+        const ArmAxes axes = {before.axis, after.axis, 0.5};
+        Rods half_way = before;
+        for (std::size_t row = 0; row < 2; ++row) {
+            half_way.centre[row] = 0.5 * (before.centre[row] + after.centre[row]);
+            half_way.axis[row] = normalised(before.axis[row] + after.axis[row]);
+        }
+        const auto mobility = model.at(before, box);
+        const ContactMatrix D(contacts, before.id);
+        const DelassusOperator A(D, before, *mobility, 0.0, {}, axes);
+        CHECK(A.diagonal()[0] == doctest::Approx(mobility_of_gap(half_way, *mobility)).epsilon(1e-6));
+        CHECK(std::fabs(A.diagonal()[0] / mobility_of_gap(before, *mobility) - 1.0) > 1e-3);
+        const std::vector<double> one = {1.0};
+        std::vector<double> rate = {0.0};
+        A.apply(one, rate);
+        CHECK(rate[0] == doctest::Approx(A.diagonal()[0]).epsilon(1e-12));
     }
 }
