@@ -23,10 +23,11 @@ Displacement displacement_of(const ContactVelocity& velocity, const EndConfigura
 
 }  // namespace
 
-void EndConfiguration::set_velocities(const ContactMatrix& contact_matrix,
+void EndConfiguration::set_velocities(const ContactMatrix& contact_matrix, std::span<const MobileRod> arms_of_rods,
                                       std::initializer_list<std::span<const ContactVelocity>> parts) {
     local_index = contact_matrix.local_index();
     rows = contact_matrix.rods();
+    arms = arms_of_rods;
     velocity.resize(rows.size());
     placed_centre.clear();
     placed_axis.clear();
@@ -56,7 +57,7 @@ void EndConfiguration::place_rods() {
     std::vector<Vec3> centres(rows.size()), axes(rows.size());
     parallel_for(rows.size(), [&](std::size_t k) {
         centres[k] = centre_at_end(rods, rows[k], known_velocity, velocity[k], time_step);
-        axes[k] = axis_at_end(rods, rows[k], known_velocity, velocity[k], arm_axes, time_step);
+        axes[k] = axis_at_end(rods, rows[k], known_velocity, velocity[k], arms[k].axis, time_step);
     });
     placed_centre = std::move(centres);
     placed_axis = std::move(axes);

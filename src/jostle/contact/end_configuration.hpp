@@ -21,14 +21,14 @@ struct Displacement {
     float inaccuracy = 0.0F;  ///< of centre and end together, at most
 };
 
-/// Centre and axis of a rod at the end of a step, by U_known + U_C.
+/// Centre and axis of a rod at the end of a step, by U_known + U_C. `arm_axis`: that of the arms of its contacts.
 inline Vec3 centre_at_end(const Rods& rods, std::uint32_t row, const Velocities& known,
                           const ContactVelocity& by_contacts, double time_step) {
     return centre_after(rods.centre[row], known.linear[row] + by_contacts.centre, time_step);
 }
 inline Vec3 axis_at_end(const Rods& rods, std::uint32_t row, const Velocities& known,
-                        const ContactVelocity& by_contacts, const ArmAxes& axes, double time_step) {
-    return axis_after(rods.axis[row], known.angular[row] + cross(axes(row), by_contacts.axis_rate), time_step);
+                        const ContactVelocity& by_contacts, const Vec3& arm_axis, double time_step) {
+    return axis_after(rods.axis[row], known.angular[row] + cross(arm_axis, by_contacts.axis_rate), time_step);
 }
 
 /// Rods at the end of a step in which contact forces act: those with contacts where the forces take them, the others
@@ -39,9 +39,9 @@ struct EndConfiguration {
     const Velocities& known_velocity;  ///< (N)
     const Configuration& known;        ///< (N) after the known motion
     double time_step;
-    ArmAxes arm_axes;
     std::span<const std::uint32_t> local_index{};  ///< (N) a rod's number among those with contacts, or no_local_index
     std::span<const std::uint32_t> rows{};         ///< (n) of the rods with contacts
+    std::span<const MobileRod> arms{};             ///< (n) the axes of their arms (ArmAxes)
     std::vector<ContactVelocity> velocity{};       ///< (n) theirs by contact forces
     std::vector<Displacement> displacement{};      ///< (n) what these add to the known motion, once it is found
     /// What a displacement needs of a rod.
@@ -52,8 +52,8 @@ struct EndConfiguration {
     std::vector<Vec3> placed_centre{}, placed_axis{};  ///< (n) after `place_rods`, else none
 
     /// Makes it that of forces by which rods have the sum of these velocities, each (n) as the matrix numbers rods, or
-    /// shorter, if that has grown since.
-    void set_velocities(const ContactMatrix& contact_matrix,
+    /// shorter, if that has grown since. `arms_of_rods`: (n), as the contact problem has them.
+    void set_velocities(const ContactMatrix& contact_matrix, std::span<const MobileRod> arms_of_rods,
                         std::initializer_list<std::span<const ContactVelocity>> parts);
 
     void find_displacements();
@@ -71,7 +71,7 @@ struct EndConfiguration {
         const std::uint32_t local = local_index[row];
         if (local == no_local_index) return known.axis[row];
         if (local < placed_axis.size()) return placed_axis[local];
-        return axis_at_end(rods, row, known_velocity, velocity[local], arm_axes, time_step);
+        return axis_at_end(rods, row, known_velocity, velocity[local], arms[local].axis, time_step);
     }
     /// The pair of rods as it is there.
     PairGeometry pair(const Box& box, const PairKey& key) const {

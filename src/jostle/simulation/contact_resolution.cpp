@@ -52,7 +52,7 @@ std::optional<ContactSolution> ContactResolution::solve(ContactProblem& problem,
     ContactSolution mirrored;
     if (solver->outcome().status == LcpStatus::converged && settings_.corrects_brownian_motion()) {
         mirrored = reflected(problem, solver->solution());
-        problem.pose_again(gap_velocities_beside(mirrored, problem.contacts(), problem.contact_matrix()));
+        problem.pose_again(gap_velocities_beside(mirrored, problem.contacts(), problem));
         solver->begin_again(settings_.lcp.tolerance);
         if (!run_to_solution(*solver, problem, &mirrored)) return std::nullopt;
     }
@@ -98,7 +98,7 @@ bool ContactResolution::run_to_solution(ContactSolver& solver, ContactProblem& p
     EndConfiguration end = after_known_motion();
     while (solver.run_to_next_stop()) {
         const ContactSolution& solution = solver.solution();
-        end.set_velocities(problem.contact_matrix(),
+        end.set_velocities(problem.contact_matrix(), problem.matrix().rods(),
                            {acting ? acting->velocities : std::span<const ContactVelocity>{}, solution.velocities});
         end.find_displacements();
         Contacts more;
@@ -111,7 +111,7 @@ bool ContactResolution::run_to_solution(ContactSolver& solver, ContactProblem& p
         if (!met) return false;
         more.append(*met);
         if (more.size() == 0) continue;
-        const auto b = acting ? gap_velocities_beside(*acting, more, problem.contact_matrix()) : gap_velocities(more);
+        const auto b = acting ? gap_velocities_beside(*acting, more, problem) : gap_velocities(more);
         problem.append(more, b);
     }
     return true;
@@ -174,9 +174,9 @@ std::vector<double> ContactResolution::gap_velocities(const Contacts& contacts) 
 
 // b where other forces act already: the gap to which they take the rods, over dt.
 std::vector<double> ContactResolution::gap_velocities_beside(const ContactSolution& acting, const Contacts& contacts,
-                                                             const ContactMatrix& contact_matrix) const {
+                                                             const ContactProblem& problem) const {
     EndConfiguration there = after_known_motion();
-    there.set_velocities(contact_matrix, {acting.velocities});
+    there.set_velocities(problem.contact_matrix(), problem.matrix().rods(), {acting.velocities});
     if (contacts.size() > there.rows.size() / 2) there.place_rods();
     std::vector<double> b = gaps_at(contacts, opened_by(acting.box_rate), there);
     parallel_for(b.size(), [&](std::size_t l) {

@@ -49,9 +49,9 @@ private:
     Box opened_by(double rate) const;
     std::vector<double> gap_velocities(const Contacts& contacts) const;
     std::vector<double> gap_velocities_beside(const ContactSolution& acting, const Contacts& contacts,
-                                              const ContactMatrix& contact_matrix) const;
+                                              const ContactProblem& problem) const;
     EndConfiguration after_known_motion() const {
-        return {state_.rods, known_.velocity, known_.end, settings_.time_step, geometry_.arm_axes()};
+        return {state_.rods, known_.velocity, known_.end, settings_.time_step};
     }
 
     const State& state_;

@@ -120,8 +120,8 @@ private:
     void rows_change();
     void update_sizes(const MobilityOperator& mobility);
     Contacts find_contacts(const StepGeometry& geometry, StepReport& report);
-    void advance(KnownMotion& known, const ArmAxes& axes, const ContactSolution& solution, const Contacts& contacts,
-                 StepReport& report);
+    void advance(KnownMotion& known, std::span<const MobileRod> arms, const ContactSolution& solution,
+                 const Contacts& contacts, StepReport& report);
     void open_box(double rate, StepReport& report);
     /// Whether contact forces do, in the step in which they act.
     bool opens_box() const { return opens_in_step(settings_.pressure, settings_.kT); }

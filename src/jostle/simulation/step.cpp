@@ -93,13 +93,13 @@ std::optional<StepReport> Simulation::attempt() {
     if (report.status != LcpStatus::converged) return report;  // nothing has happened
 
     const ResolvedStep step = {
-        state_, known_, contacts_, touching ? *touching : solution_, domain_, geometry.arm_axes()};
+        state_, known_, contacts_, touching ? *touching : solution_, domain_, problem.matrix().rods()};
     measure_stress(step, settings_, half_way_axis_, report, moments_);  // 4
     timer.finish(StepPhase::measure_stress);
 
     if (settings_.pressure && !opens_box()) state_.box_force = force_on_box(report);
     changes.keep();
-    advance(known_, geometry.arm_axes(), solution_, contacts_, report);  // 5
+    advance(known_, step.arms, solution_, contacts_, report);  // 5
     timer.finish(StepPhase::advance);
     if (!domain_.is_shared()) threads_.end_step();
     return report;
@@ -128,7 +128,7 @@ Contacts Simulation::find_contacts(const StepGeometry& geometry, StepReport& rep
 
 // Theory 2.4: rods with contacts go where forces take them, the others where the known motion does; then what happens
 // between two steps.
-void Simulation::advance(KnownMotion& known, const ArmAxes& axes, const ContactSolution& solution,
+void Simulation::advance(KnownMotion& known, std::span<const MobileRod> arms, const ContactSolution& solution,
                          const Contacts& contacts, StepReport& report) {
     Rods& rods = state_.rods;
     if (growth_) {
@@ -140,7 +140,7 @@ void Simulation::advance(KnownMotion& known, const ArmAxes& axes, const ContactS
     parallel_for(solution.rods.size(), [&](std::size_t k) {
         const std::uint32_t row = solution.rods[k];
         centre[row] = centre_at_end(rods, row, known.velocity, solution.velocities[k], dt);
-        axis[row] = axis_at_end(rods, row, known.velocity, solution.velocities[k], axes, dt);
+        axis[row] = axis_at_end(rods, row, known.velocity, solution.velocities[k], arms[k].axis, dt);
     });
     rods.centre.swap(centre);
     rods.axis.swap(axis);

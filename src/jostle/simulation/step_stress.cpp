@@ -14,7 +14,7 @@ void find_half_way_axes(const ResolvedStep& step, double time_step, std::vector<
     parallel_for(step.solution.rods.size(), [&](std::size_t k) {
         const std::uint32_t row = step.solution.rods[k];
         const Vec3& axis = step.state.rods.axis[row];
-        const Vec3 collision = cross(step.arm_axes(row), step.solution.velocities[k].axis_rate);
+        const Vec3 collision = cross(step.arms[k].axis, step.solution.velocities[k].axis_rate);
         const Vec3 by_forces = step.known.by_forces.size() == 0 ? Vec3{} : step.known.by_forces.angular[row];
         const Vec3 turned = step.known.velocity.angular[row] - 0.5 * by_forces;
         half_way_axis[row] = axis_after(axis, turned + 0.5 * collision, time_step);
@@ -79,7 +79,7 @@ void measure_stress_of_known_forces(const ResolvedStep& step, double time_step, 
     parallel_for(step.solution.rods.size(), [&](std::size_t k) {
         const std::uint32_t row = step.solution.rods[k];
         by_forces.linear[row] += step.solution.velocities[k].centre;
-        by_forces.angular[row] += cross(step.arm_axes(row), step.solution.velocities[k].axis_rate);
+        by_forces.angular[row] += cross(step.arms[k].axis, step.solution.velocities[k].axis_rate);
     });
     Configuration half_way;
     half_way.resize(rods.size());

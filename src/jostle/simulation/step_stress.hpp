@@ -16,7 +16,7 @@ struct ResolvedStep {
     const Contacts& contacts;
     const ContactSolution& solution;
     const Domain& domain;
-    ArmAxes arm_axes;  ///< of the contacts
+    std::span<const MobileRod> arms;  ///< (n) of the rods of the solution, the axes of their arms
 };
 
 /// Fills in the report's stresses, and `moments` if the settings ask for them. `half_way_axis`: scratch.

@@ -26,6 +26,7 @@ struct Moves {
     const Box& in_box;
     Configuration known;
     Velocities known_velocity;  ///< in a step of 1
+    std::vector<MobileRod> arms;
     std::vector<ContactVelocity> velocity;
     std::vector<double> farthest_known;
     std::vector<std::uint32_t> local_index, rows;
@@ -49,6 +50,7 @@ struct Moves {
             if (forced_size == 0.0 || i % 3 != 0) continue;
             local_index[i] = static_cast<std::uint32_t>(rows.size());
             rows.push_back(i);
+            arms.push_back({rods.axis[i], {}});
         }
         velocity.resize(rows.size());
         displacement.resize(rows.size());
@@ -70,7 +72,7 @@ struct Moves {
         return {rods_before, in_box, known, farthest_known, {displacement_limit, skin, margin, range}, normals_after};
     }
     EndConfiguration end() const {
-        return {rods_before, known_velocity, known, 1.0, {rods_before.axis}, local_index, rows, velocity, displacement};
+        return {rods_before, known_velocity, known, 1.0, local_index, rows, arms, velocity, displacement};
     }
     Configuration all_at_end() const {
         Configuration all;

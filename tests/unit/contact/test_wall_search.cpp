@@ -105,9 +105,10 @@ TEST_CASE("ends that only contact forces bring to a wall are found at the end of
     Velocities still;
     still.resize(1);
     const std::vector<std::uint32_t> local_index{0}, rows{0};
+    const std::vector<MobileRod> arms{{rods.axis[0], {}}};
     const std::vector<ContactVelocity> velocity{{{0, 0, -50.0}, {}}};
     const std::vector<Displacement> displacement{{{0, 0, -0.5F}, {}, 0.51F, 0.0F}};
-    const EndConfiguration end = {rods, still, known, 0.01, {rods.axis}, local_index, rows, velocity, displacement};
+    const EndConfiguration end = {rods, still, known, 0.01, local_index, rows, arms, velocity, displacement};
     const Contacts found = search.violated(step, end);
     REQUIRE(found.size() == 1);
     CHECK(found.contact[0].i == fixed_body(4));
