@@ -9,6 +9,7 @@
 #include "jostle/contact/pair_contacts.hpp"
 #include "jostle/contact/wall_contacts.hpp"
 #include "jostle/math/rotation.hpp"
+#include "support/two_rods.hpp"
 
 using namespace jostle;
 
@@ -42,7 +43,7 @@ double by_differences(const Rods& rods, const std::function<double(const Rods&)>
 }
 
 Contacts contacts_of(const Rods& rods) {
-    const PairGeometry pair = pair_geometry(rods, 0, 1, rods.centre[1] - rods.centre[0], rods.axis[0], rods.axis[1]);
+    const PairGeometry pair = test::first_pair(rods);
     const NearestPoints nearest = nearest_points(pair);
     Contacts contacts;
     append_contacts({0, 1, {}}, pair, nearest, norm(nearest.separation), 1.0, 3, contacts);
@@ -50,14 +51,7 @@ Contacts contacts_of(const Rods& rods) {
 }
 
 double gap_of(const Rods& rods) {
-    return pair_gap(pair_geometry(rods, 0, 1, rods.centre[1] - rods.centre[0], rods.axis[0], rods.axis[1]));
-}
-
-Rods two(const Vec3& between, const Vec3& axis_i, const Vec3& axis_j) {
-    Rods rods;
-    rods.push_back(0, {5, 5, 5}, normalised(axis_i), 4.0, 1.0);
-    rods.push_back(1, Vec3{5, 5, 5} + between, normalised(axis_j), 3.0, 1.0);
-    return rods;
+    return pair_gap(test::first_pair(rods));
 }
 
 const Box open{{40, 40, 40}, {false, false, false}};
@@ -69,10 +63,11 @@ TEST_CASE("how fast noise opens a gap is the trace of M times its second derivat
         const char* name;
         Rods rods;
     };
-    for (const auto& [name, rods] : {Case{"side and side", two({0.2, 0.3, 1.0}, {1, 0.1, 0}, {0.1, 1, 0})},
-                                     Case{"end and side", two({0.3, 2.5, 0.1}, {1, 0, 0}, {0.4, 1, 0.3})},
-                                     Case{"side and end", two({3.0, -0.2, 0.1}, {1, 0, 0.2}, {0.3, 1, 0.3})},
-                                     Case{"end and end", two({3.7, 0.6, 0.3}, {1, 0, 0.1}, {1, 0.5, 0.3})}}) {
+    for (const auto& [name, rods] :
+         {Case{"side and side", test::two_rods({0.2, 0.3, 1.0}, {1, 0.1, 0}, {0.1, 1, 0})},
+          Case{"end and side", test::two_rods({0.3, 2.5, 0.1}, {1, 0, 0}, {0.4, 1, 0.3})},
+          Case{"side and end", test::two_rods({3.0, -0.2, 0.1}, {1, 0, 0.2}, {0.3, 1, 0.3})},
+          Case{"end and end", test::two_rods({3.7, 0.6, 0.3}, {1, 0, 0.1}, {1, 0.5, 0.3})}}) {
         CAPTURE(name);
         const Contacts contacts = contacts_of(rods);
         REQUIRE(contacts.size() == 1);

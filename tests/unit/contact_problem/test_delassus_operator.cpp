@@ -11,6 +11,7 @@
 #include "jostle/mobility/drag.hpp"
 #include "jostle/mobility/drag_mobility.hpp"
 #include "support/assemblies.hpp"
+#include "support/two_rods.hpp"
 
 using namespace jostle;
 
@@ -52,11 +53,8 @@ TEST_CASE("A is symmetric and positive semi-definite, and its diagonal is as tol
 
 namespace {
 
-/// The gap of two rods, and (grad gap) M (grad gap) by differences: each rod along and across its axis, and about two
-/// axes across it.
-double gap_of(const Rods& rods) {
-    return pair_gap(pair_geometry(rods, 0, 1, rods.centre[1] - rods.centre[0], rods.axis[0], rods.axis[1]));
-}
+/// (grad gap) M (grad gap) of two rods by differences: each rod along and across its axis, and about two axes across
+/// it.
 double mobility_of_gap(const Rods& rods, const MobilityOperator& mobility) {
     const double h = 1e-5;
     double sum = 0.0;
@@ -69,7 +67,7 @@ double mobility_of_gap(const Rods& rods, const MobilityOperator& mobility) {
             behind.centre[row] -= h * along;
             ahead.axis[row] = rotated(axis, h * about);
             behind.axis[row] = rotated(axis, -h * about);
-            return (gap_of(ahead) - gap_of(behind)) / (2.0 * h);
+            return (pair_gap(test::first_pair(ahead)) - pair_gap(test::first_pair(behind))) / (2.0 * h);
         };
         const auto squared = [](double x) { return x * x; };
         sum += own.parallel * squared(slope(axis, {}));
@@ -77,13 +75,6 @@ double mobility_of_gap(const Rods& rods, const MobilityOperator& mobility) {
             sum += own.perpendicular * squared(slope(across, {})) + own.rotational * squared(slope({}, across));
     }
     return sum;
-}
-
-Rods two_rods(const Vec3& between, const Vec3& axis_i, const Vec3& axis_j) {
-    Rods rods;
-    rods.push_back(0, {5, 5, 5}, normalised(axis_i), 4.0, 1.0);
-    rods.push_back(1, Vec3{5, 5, 5} + between, normalised(axis_j), 3.0, 1.0);
-    return rods;
 }
 
 }  // namespace
@@ -95,18 +86,15 @@ TEST_CASE("of rods that move and turn, A is that of rods half way: with their no
         const char* name;
         Rods before, after;
     };
-    for (const Case& test_case : {Case{"sides", two_rods({0.2, 0.3, 1.0}, {1, 0.1, 0}, {0.1, 1, 0}),
-                                       two_rods({0.4, 0.1, 0.8}, {1, 0.4, 0.1}, {0.3, 1, -0.2})},
-                                  Case{"end and side", two_rods({0.3, 2.5, 0.1}, {1, 0, 0}, {0.4, 1, 0.3}),
-                                       two_rods({0.1, 2.3, 0.1}, {1, 0.3, 0}, {0.1, 1, 0.5})},
-                                  Case{"ends", two_rods({3.7, 0.6, 0.3}, {1, 0, 0.1}, {1, 0.5, 0.3}),
-                                       two_rods({3.5, 0.5, 0.2}, {1, 0.2, 0.3}, {1, 0.7, 0.1})}}) {
+    for (const Case& test_case : {Case{"sides", test::two_rods({0.2, 0.3, 1.0}, {1, 0.1, 0}, {0.1, 1, 0}),
+                                       test::two_rods({0.4, 0.1, 0.8}, {1, 0.4, 0.1}, {0.3, 1, -0.2})},
+                                  Case{"end and side", test::two_rods({0.3, 2.5, 0.1}, {1, 0, 0}, {0.4, 1, 0.3}),
+                                       test::two_rods({0.1, 2.3, 0.1}, {1, 0.3, 0}, {0.1, 1, 0.5})},
+                                  Case{"ends", test::two_rods({3.7, 0.6, 0.3}, {1, 0, 0.1}, {1, 0.5, 0.3}),
+                                       test::two_rods({3.5, 0.5, 0.2}, {1, 0.2, 0.3}, {1, 0.7, 0.1})}}) {
         CAPTURE(test_case.name);
         const Rods &before = test_case.before, &after = test_case.after;
-        const auto geometry = [](const Rods& rods) {
-            return pair_geometry(rods, 0, 1, rods.centre[1] - rods.centre[0], rods.axis[0], rods.axis[1]);
-        };
-        const PairGeometry first = geometry(before), last = geometry(after);
+        const PairGeometry first = test::first_pair(before), last = test::first_pair(after);
         Contacts contacts;
         append_moving_contacts({0, 1, {}}, {first, nearest_points(first), last, 0.5}, 1.0, 3, contacts);
         REQUIRE(contacts.size() == 1);
