@@ -253,11 +253,11 @@ void CollisionSearch::search_late(std::size_t begin, std::size_t end, GapAtEnd&&
 
 /// By rows, where pairs look for them: 0 for rods without contacts.
 void CollisionSearch::take_displacements(const EndConfiguration& end) {
-    displaced_rows_.assign(end.rows.begin(), end.rows.end());
-    parallel_for(end.rows.size(), [&](std::size_t k) {
-        Displacement& displacement = displacement_[end.rows[k]];
-        change_[end.rows[k]] = change_between(displacement, end.displacement[k]);
-        displacement = end.displacement[k];
+    displaced_rows_.assign(end.rows().begin(), end.rows().end());
+    parallel_for(end.rows().size(), [&](std::size_t k) {
+        Displacement& displacement = displacement_[end.rows()[k]];
+        change_[end.rows()[k]] = change_between(displacement, end.displacements()[k]);
+        displacement = end.displacements()[k];
     });
 }
 
@@ -266,9 +266,9 @@ void CollisionSearch::take_displacements(const EndConfiguration& end) {
 std::vector<NeighbourList::Widening> CollisionSearch::widen(const StepGeometry& step, const EndConfiguration& end) {
     const double limit = step.ranges.displacement_limit;
     std::vector<NeighbourList::Widening> farther;
-    for (std::size_t k = 0; k < end.rows.size(); ++k) {
-        const std::uint32_t row = end.rows[k];
-        const double known = known_beyond_[row], beyond = end.displacement[k].farthest - limit;
+    for (std::size_t k = 0; k < end.rows().size(); ++k) {
+        const std::uint32_t row = end.rows()[k];
+        const double known = known_beyond_[row], beyond = end.displacements()[k].farthest - limit;
         if (beyond <= known) continue;
         const double spare = std::max(neighbours_.spare_range(row) - (beyond - known), 0.0);
         known_beyond_[row] = static_cast<float>(beyond + std::min(foresight * limit, spare));

@@ -74,12 +74,13 @@ void FixedRodSearch::remember(const Contacts& contacts, std::size_t first) {
 Contacts FixedRodSearch::violated(const StepGeometry& step, const EndConfiguration& end) {
     Contacts all;
     if (!step.box.fixed_rods()) return all;
-    const std::size_t count = end.rows.size();
+    const std::size_t count = end.rows().size();
     const double farthest =
-        parallel_max(count, 0.0, [&](std::size_t k) { return static_cast<double>(end.displacement[k].farthest); });
+        parallel_max(count, 0.0, [&](std::size_t k) { return static_cast<double>(end.displacements()[k].farthest); });
     grid_.fit(step.box, range_from_centre(step.rods, *step.box.fixed_rods(), interaction_range_) + farthest);
     append_found(count, blocks_, all, [&](std::size_t k, FoundContacts& found) {
-        if (end.rows[k] < step.own) search_again(end.rows[k], end.displacement[k].farthest, step, end, found.contacts);
+        if (end.rows()[k] < step.own)
+            search_again(end.rows()[k], end.displacements()[k].farthest, step, end, found.contacts);
     });
     remember(all, 0);
     return all;
@@ -139,7 +140,7 @@ Contacts relinearised_fixed_rod_contacts(const Contacts& contacts, const Box& bo
         const Contact& known = contacts.contact[l];
         if (!is_fixed_rod(known.i) || !looked_at.insert(pair_of(contacts, l)).second) continue;
         const FixedCopy copy = copy_of(known, contacts.image[l], box);
-        const Rods &fixed = *box.fixed_rods(), &rods = end.rods;
+        const Rods &fixed = *box.fixed_rods(), &rods = end.rods();
         const PairGeometry pair = pair_with(fixed, copy, rods, known.j, end.centre(known.j), end.axis(known.j));
         const PairGeometry before = pair_with(fixed, copy, rods, known.j, rods.centre[known.j], rods.axis[known.j]);
         const auto contact = relinearised_contact(known, before, pair);

@@ -13,13 +13,13 @@ std::vector<double> gaps_at(const Contacts& contacts, const Box& box, const EndC
         const Contact& contact = contacts.contact[l];
         if (is_wall(contact.i)) {
             const Vec3 point = there.centre(contact.j) + contact.arm_j * there.axis(contact.j);
-            gaps[l] = wall_of_body(walls, contact.i).gap(point, there.rods.diameter[contact.j]);
+            gaps[l] = wall_of_body(walls, contact.i).gap(point, there.rods().diameter[contact.j]);
             return;
         }
-        const PairGeometry pair = is_fixed(contact.i)
-                                      ? pair_with(*box.fixed_rods(), copy_of(contact, contacts.image[l], box),
-                                                  there.rods, contact.j, there.centre(contact.j), there.axis(contact.j))
-                                      : there.pair(box, pair_of(contacts, l));
+        const PairGeometry pair =
+            is_fixed(contact.i) ? pair_with(*box.fixed_rods(), copy_of(contact, contacts.image[l], box), there.rods(),
+                                            contact.j, there.centre(contact.j), there.axis(contact.j))
+                                : there.pair(box, pair_of(contacts, l));
         const auto own_image =
             contact.i == contact.j ? contact_with_own_image(pair_of(contacts, l), pair) : std::nullopt;
         gaps[l] = own_image ? own_image->gap_after : gap_of_contact(contact, contacts.feature[l], pair);

@@ -27,7 +27,7 @@ Contacts relinearised_contacts(const Contacts& contacts, const Box& box, const E
     for (const auto& [key, l] : first) {
         const PairGeometry pair = end.pair(box, key);
         const PairGeometry before =
-            pair_geometry(end.rods, key.i, key.j, box.displacement(key.image), end.rods.centre, end.rods.axis);
+            pair_geometry(end.rods(), key.i, key.j, box.displacement(key.image), end.rods().centre, end.rods().axis);
         if (const auto contact = relinearised_contact(contacts.contact[l], before, pair))
             found.push_back(*contact, key.image, ContactFeature::relinearised);
     }

@@ -38,7 +38,7 @@ Contacts relinearised_wall_contacts(const Contacts& contacts, const Box& box, co
         if (!is_wall(contact.i) || contacts.feature[l] == ContactFeature::relinearised) continue;
         const Wall& wall = wall_of_body(walls, contact.i);
         const Vec3 point = end.centre(contact.j) + contact.arm_j * end.axis(contact.j);
-        contact.gap_after = wall.gap(point, end.rods.diameter[contact.j]);
+        contact.gap_after = wall.gap(point, end.rods().diameter[contact.j]);
         if (!(contact.gap_after < -max_overlap)) continue;
         contact.normal = wall.inwards(point);
         found.push_back(contact, {0, 0, 0}, ContactFeature::relinearised);

@@ -78,9 +78,9 @@ void WallSearch::search(std::uint32_t row, const StepGeometry& step, FoundContac
 Contacts WallSearch::violated(const StepGeometry& step, const EndConfiguration& end) {
     Contacts all;
     if (walls_.empty()) return all;
-    append_found(end.rows.size(), blocks_, all, [&](std::size_t k, FoundContacts& found) {
-        const std::uint32_t row = end.rows[k];
-        const double farthest = end.displacement[k].farthest;
+    append_found(end.rows().size(), blocks_, all, [&](std::size_t k, FoundContacts& found) {
+        const std::uint32_t row = end.rows()[k];
+        const double farthest = end.displacements()[k].farthest;
         if (row < step.own && gap_at_least_[row] <= farthest) search_again(row, farthest, step, end, found.contacts);
     });
     return all;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "jostle/contact/end_configuration.hpp"
 #include "jostle/contact_problem/contact_solution.hpp"
 #include "jostle/contact_problem/delassus_operator.hpp"
 #include "jostle/domain/domain.hpp"
@@ -58,6 +59,9 @@ public:
     /// Whether there are forces to begin from, on any rank.
     bool begins_warm() const { return domain_.ranks().any(!start_.empty()); }
     double time_step() const { return time_step_; }
+    RodsWithContacts rods_with_contacts() const {
+        return {contact_matrix_.local_index(), contact_matrix_.rods(), matrix_.rods()};
+    }
     /// The rate at which forces on all ranks open the box, m w.gamma. No contact with a plane is another rank's, too.
     double box_rate(std::span<const double> gamma) const {
         if (!matrix_.opens_box()) return 0.0;

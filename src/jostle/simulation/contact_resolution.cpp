@@ -98,7 +98,7 @@ bool ContactResolution::run_to_solution(ContactSolver& solver, ContactProblem& p
     EndConfiguration end = after_known_motion();
     while (solver.run_to_next_stop()) {
         const ContactSolution& solution = solver.solution();
-        end.set_velocities(problem.contact_matrix(), problem.matrix().rods(),
+        end.set_velocities(problem.rods_with_contacts(),
                            {acting ? acting->velocities : std::span<const ContactVelocity>{}, solution.velocities});
         end.find_displacements();
         Contacts more;
@@ -147,7 +147,7 @@ Contacts ContactResolution::relinearised(const ContactProblem& problem, const Bo
     more.append(relinearised_wall_contacts(contacts, box, end, max_overlap));
     more.append(relinearised_fixed_rod_contacts(contacts, box, end, max_overlap));
     const auto velocity = [&](std::uint32_t body) {
-        return is_fixed(body) ? ContactVelocity{} : solution.velocities[end.local_index[body]];
+        return is_fixed(body) ? ContactVelocity{} : solution.velocities[problem.contact_matrix().local_index()[body]];
     };
     for (Contact& contact : more.contact) {
         const double by_rods = gap_rate(contact, velocity(contact.i), velocity(contact.j));
@@ -176,8 +176,8 @@ std::vector<double> ContactResolution::gap_velocities(const Contacts& contacts) 
 std::vector<double> ContactResolution::gap_velocities_beside(const ContactSolution& acting, const Contacts& contacts,
                                                              const ContactProblem& problem) const {
     EndConfiguration there = after_known_motion();
-    there.set_velocities(problem.contact_matrix(), problem.matrix().rods(), {acting.velocities});
-    if (contacts.size() > there.rows.size() / 2) there.place_rods();
+    there.set_velocities(problem.rods_with_contacts(), {acting.velocities});
+    if (contacts.size() > there.rows().size() / 2) there.place_rods();
     std::vector<double> b = gaps_at(contacts, opened_by(acting.box_rate), there);
     parallel_for(b.size(), [&](std::size_t l) {
         if (contacts.feature[l] == ContactFeature::relinearised) b[l] = contacts.contact[l].gap_after;

@@ -30,7 +30,6 @@ struct Moves {
     std::vector<ContactVelocity> velocity;
     std::vector<double> farthest_known;
     std::vector<std::uint32_t> local_index, rows;
-    std::vector<Displacement> displacement;
 
     Moves(const Rods& rods, const Box& box, double known_size, double forced_size, std::mt19937_64& engine)
         : rods_before(rods),
@@ -53,7 +52,6 @@ struct Moves {
             arms.push_back({rods.axis[i], {}});
         }
         velocity.resize(rows.size());
-        displacement.resize(rows.size());
         change_forces(forced_size, engine);
     }
     /// Every displacement by forces changes by about `size`.
@@ -63,22 +61,23 @@ struct Moves {
             const double half = 0.5 * rods_before.length[i];
             velocity[k].centre += random_vector(size, engine);
             velocity[k].axis_rate += cross(random_vector(size / (1.0 + half), engine), rods_before.axis[i]);
-            const Vec3 shift = velocity[k].centre, turned = end().axis(i) - known.axis[i];
-            displacement[k] = {in_float(shift), in_float(half * turned),
-                               static_cast<float>(1.00001 * farthest_displacement(shift, turned, half)), 1e-5F};
         }
     }
     StepGeometry step(double range = 0.0, double normals_after = 0.0) const {
         return {rods_before, in_box, known, farthest_known, {displacement_limit, skin, margin, range}, normals_after};
     }
     EndConfiguration end() const {
-        return {rods_before, known_velocity, known, 1.0, local_index, rows, arms, velocity, displacement};
+        EndConfiguration result(rods_before, known_velocity, known, 1.0);
+        result.set_velocities({local_index, rows, arms}, {velocity});
+        result.find_displacements();
+        return result;
     }
     Configuration all_at_end() const {
         Configuration all;
+        const EndConfiguration there = end();
         for (std::uint32_t i = 0; i < known.size(); ++i) {
-            all.centre.push_back(end().centre(i));
-            all.axis.push_back(end().axis(i));
+            all.centre.push_back(there.centre(i));
+            all.axis.push_back(there.axis(i));
         }
         return all;
     }

@@ -107,8 +107,9 @@ TEST_CASE("ends that only contact forces bring to a wall are found at the end of
     const std::vector<std::uint32_t> local_index{0}, rows{0};
     const std::vector<MobileRod> arms{{rods.axis[0], {}}};
     const std::vector<ContactVelocity> velocity{{{0, 0, -50.0}, {}}};
-    const std::vector<Displacement> displacement{{{0, 0, -0.5F}, {}, 0.51F, 0.0F}};
-    const EndConfiguration end = {rods, still, known, 0.01, local_index, rows, arms, velocity, displacement};
+    EndConfiguration end(rods, still, known, 0.01);
+    end.set_velocities({local_index, rows, arms}, {velocity});
+    end.find_displacements();
     const Contacts found = search.violated(step, end);
     REQUIRE(found.size() == 1);
     CHECK(found.contact[0].i == fixed_body(4));
