@@ -95,6 +95,14 @@ def test_the_page_is_renewed_study_by_study():
     assert page.renewed(renewed, [], names) == renewed
 
 
+def test_the_worst_cases_of_the_readme_are_those_of_the_page():
+    item = re.search(r"- \[Validation\]\(docs/validation/README\.md\)(.*?)\n- ", (STUDIES.parent / "README.md").read_text(encoding="utf-8"), re.DOTALL)[1]
+    told = re.findall(r"the worst is (L/D = \d+, phi = [\d.]+), ([-+][\d.]+ %), ([-+][\d.]+) combined standard errors", " ".join(item.split()))
+    text = page.FOLDER.joinpath("README.md").read_text(encoding="utf-8")
+    shown = re.findall(r"the worst deviation of 29 points with a reference is ([-+][\d.]+ %), ([-+][\d.]+) combined standard errors \((.*?)\)", text)
+    assert [(per_cent, errors, state) for state, per_cent, errors in told] == shown and len(shown) == 2
+
+
 def test_stop_and_resume(tmp_path):
     """Ctrl-C ends with 75 and leaves checkpoints; the same command goes on from them, and a third has nothing to run."""
     command = [STUDIES / "run", "drag_independence", "--quick", "--jostle", JOSTLE, "--results", tmp_path,
