@@ -58,7 +58,7 @@ double bytes_of_fluid_per_rod(const Scene& scene) {
     return 3000.0 + 800.0 * scene.rods.length / scene.rods.diameter;
 }
 double bytes_per_rod(double volume_fraction) {
-    return 480.0 + 2000.0 * volume_fraction + 9000.0 * volume_fraction * volume_fraction;
+    return 520.0 + 3000.0 * volume_fraction + 8300.0 * volume_fraction * volume_fraction;
 }
 
 void print(const char* name, const std::string& value) {

@@ -14,6 +14,7 @@
 #include "jostle/disk/checksum.hpp"
 #include "jostle/disk/durable_file.hpp"
 #include "jostle/measurement/h5md_attributes.hpp"
+#include "jostle/parallel/freed_memory.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_motion.hpp"
 #include "jostle/setup/largest_overlap.hpp"
@@ -67,6 +68,7 @@ Run::Run(const RunOptions& options, const RunScene& scene, Simulation& simulatio
 
 ExitCode Run::go() {
     stop_request::wait_for_steps();
+    parallel::keep_freed_memory();
     record("running");
     show_progress();
     share();
