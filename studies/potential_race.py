@@ -98,8 +98,8 @@ def evaluate(report, runs_by_name, quick):
     report.numbers(["method", "rms_step", "time_step", "Z", "standard_error", "deviation", "deviation_error", "seconds_per_time"],
                 [[m.name, *values] for m in methods for values in
                  zip(m.rms, m.time_step, m.Z, m.error, m.deviation, m.deviation_error, m.seconds)])
-    report.remark(f"The WCA rods have a diameter of {1 / effective_diameter():.4f} D. Their longest step is 0.02 D, though Z is not off by much there: at 0.025 D "
-                  "rods passed through each other in 10 of 16 such runs (seeds 5 to 20), each of 200 mu D3/kT, which end then; at 0.02 D in none of the 16.")
+    report.remark(f"The WCA rods have a diameter of {1 / effective_diameter():.4f} D. Their longest step is 0.02 D, though Z is not off by much there: at longer ones rods "
+                  "pass through each other ([beside the studies](beside_the_studies.md#the-longest-step-of-soft-rods)).")
     for method in methods:
         if method.name == "hard, plain":
             continue
