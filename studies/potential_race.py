@@ -17,9 +17,9 @@ from runs import Run
 BETA, PHI, COUNT = 5.0, 0.20, 500
 TIME_PER_SQUARED_STEP = 12.8  # mu D/kT: time step over (rms step)^2 for this rod
 STEPS = {  # method: {rms step / D: simulated time, mu D3/kT}
-    "hard, corrected": {0.02: 200, 0.03: 300, 0.06: 500, 0.1: 500, 0.15: 500},
-    "hard, plain": {0.0025: 40, 0.005: 100, 0.01: 200, 0.02: 200, 0.03: 300},
-    "WCA": {0.0025: 60, 0.004: 100, 0.006: 150, 0.01: 200, 0.015: 200, 0.02: 200},  # at longer ones rods pass through each other
+    "hard, corrected": {0.02: 800, 0.03: 1200, 0.06: 2000, 0.1: 2000, 0.15: 2000},
+    "hard, plain": {0.0025: 160, 0.005: 400, 0.01: 800, 0.02: 800, 0.03: 1200},
+    "WCA": {0.0025: 240, 0.004: 400, 0.006: 600, 0.01: 800, 0.015: 800, 0.02: 200},  # the last: beyond it rods pass through each other
 }
 QUICK_STEPS = {"hard, corrected": {0.06: 80}, "WCA": {0.006: 15}}
 TARGETS = (0.01, 0.02)  # error of Z
@@ -68,14 +68,17 @@ class Method:
         self.seconds = numpy.array([run.wall_seconds / run.record["steps"] for run in found]) / self.time_step
 
     def longest_step(self, target):
-        """(time step, seconds per unit of time) where |deviation| reaches `target`, going up from the smallest step, between
-        two steps in proportion; the last step measured if it is not reached; None if the smallest is beyond."""
-        inside = numpy.abs(self.deviation) <= target
-        if not inside[0]:
+        """(time step, seconds per unit of time) above which |deviation| is above `target`, between two steps in
+        proportion; the last step measured if it is not reached; None if all are beyond.
+
+        The error of a step grows with it. So a shorter step that is beyond the target, where a longer one is not, is
+        beyond it by the scatter of its mean."""
+        inside = numpy.flatnonzero(numpy.abs(self.deviation) <= target)
+        if inside.size == 0:
             return None
-        if inside.all():
+        k = int(inside[-1]) + 1
+        if k == len(self.deviation):
             return self.time_step[-1], self.seconds[-1], False
-        k = int(numpy.argmin(inside))
         low, high = abs(self.deviation[k - 1]), abs(self.deviation[k])
         fraction = min(max((target - low) / (high - low), 0.0), 1.0)
 

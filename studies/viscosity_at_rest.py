@@ -27,7 +27,7 @@ ANISOTROPY = 0.955626  # B of L/D = 5
 def runs(quick):
     steps = (QUICK_STEP,) if quick else STEPS
     rest = [spheres(f"rest_{rms:g}", 216, rms, (400.0 if quick else 1500.0 * rms / STEPS[0])) for rms in steps]
-    sheared = [spheres(f"sheared_{rate:g}_{rms:g}", 500, rms, 100.0 if quick else 300.0 / rate**1.5, rate)
+    sheared = [spheres(f"sheared_{rate:g}_{rms:g}", 500, rms, 100.0 if quick else 600.0 / rate**1.5, rate)
                for rms in steps for rate in ((1.0,) if quick else RATES) if rms in (QUICK_STEP, LONGEST_GOOD) or rate == 1.0]
     free = Run(name="free", scene={"seed": 5, "box": {"volume_fraction": FREE_DENSITY}, "rods": {"count": 50, "length": 5.0},
                                    "time": {"step": 0.005 / FREE_ROTATION}, "output": {"series_every": 5}},
