@@ -72,9 +72,14 @@ class Job:
             return 0.0
 
     @property
+    def is_foretold(self):
+        """Whether `jostle check` knows how long it takes: of a colony it does not."""
+        return self.told.seconds > 0.0
+
+    @property
     def seconds(self):
         """Foretold; of a run of which nothing is known, as if it were a short one."""
-        return self.told.seconds if self.told.seconds > 0.0 else 1.0
+        return self.told.seconds if self.is_foretold else 1.0
 
 
 def ask(jostle, scene, *words):
@@ -197,7 +202,8 @@ class Progress:
         self.last_line = now
         done, elapsed = self.done(), now - self.began
         gained = done - self.done_before
-        left = f"  {duration(elapsed * (1.0 - done) / gained)} left" if gained > 0.01 else ""
+        are_foretold = all(job.over or job.is_foretold for job in self.jobs)
+        left = f"  {duration(elapsed * (1.0 - done) / gained)} left" if gained > 0.01 and are_foretold else ""
         failed = sum(bool(job.failure) for job in self.jobs)
         over = sum(job.over for job in self.jobs)
         line = (f"{100 * done:3.0f} %  {over} of {len(self.jobs)} runs done, {len(running)} running"
@@ -219,8 +225,11 @@ def duration(seconds):
 
 def foretold(jobs, processes):
     """How long the runs that are not done take, in words."""
-    left = sum(job.seconds * (1.0 - job.fraction_done()) for job in jobs if not job.is_done())
-    return duration(max(1.0, left / processes))
+    missing = [job for job in jobs if not job.is_done()]
+    if not all(job.is_foretold for job in missing):
+        return "how long it takes is not known, for cells multiply"
+    left = sum(job.seconds * (1.0 - job.fraction_done()) for job in missing)
+    return f"about {duration(max(1.0, left / processes))} on {processes} processors"
 
 
 def processors():

@@ -212,7 +212,7 @@ def run_jobs(sweep, jobs):
     """Runs what is not done; whether it was stopped."""
     done = sum(job.is_done() for job in jobs)
     print(f"jostle: {len(jobs)} runs in {sweep.folder}" + (f", {done} of them done before" if done else "")
-          + (f"; about {side_by_side.foretold(jobs, sweep.processes)} on {sweep.processes} processors" if done < len(jobs) else ""),
+          + (f"; {side_by_side.foretold(jobs, sweep.processes)}" if done < len(jobs) else ""),
           file=sys.stderr, flush=True)
     return side_by_side.run_all(jobs, sweep.processes, tell_failure, sweep.folder)
 

@@ -374,6 +374,18 @@ def test_the_rods_that_threads_are_given_for(tmp_path):
     assert rods(changed(cells, time={"production": 1e6})) == 50  # more than can be told
 
 
+def test_how_long_a_colony_takes_is_not_foretold(tmp_path):
+    colony = changed(SPHERES, rods={"count": 1, "length": 1.0}, box={"volume_fraction": None, "edges": [50.0, 50.0, 50.0], "periodic": [False] * 3},
+                     fluid={"kT": 0.01}, growth={"rate": 1.0, "division_length": 3.0},
+                     time={"rms_step": None, "step": 0.01, "production": 1.0, "equilibration": 0.0})
+    write_scene(tmp_path, colony)
+    began = sweep(tmp_path, "--replicas", "2").stderr.splitlines()[0]
+    assert began.endswith("; how long it takes is not known, for cells multiply")
+    write_scene(tmp_path, SPHERES)
+    began = sweep(tmp_path, "--replicas", "2", "--out", "spheres").stderr.splitlines()[0]
+    assert re.search(r"; about \d+ s on 2 processors$", began)
+
+
 def test_the_guide(tmp_path):
     """Every command of the page; its numbers, within five errors of both, as their last digits are those of one build."""
     page = ROOT / "docs/guide/sweeps.md"
