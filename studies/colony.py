@@ -12,6 +12,7 @@ from runs import Run
 TIME_STEP = 0.005  # in which a cell of mean rate lengthens by 0.005 D
 CELLS, END = 200000, 54.6  # a doubling takes 3
 QUICK_CELLS, QUICK_END = 1000, 32.0
+LARGE = 10000  # cells, from which on steps have momentum and early searches
 FRAME_EVERY = 6.7
 
 
@@ -46,6 +47,10 @@ def evaluate(report, runs_by_name, quick):
                  ["cells", "time", "contacts a cell", "sweeps a step", "largest overlap, D"], rows)
     report.remark(f"{run.record['steps']} steps to {series['N'][-1]:.0f} cells took {run.time_taken} on {run.threads} threads; "
                   f"the last steps hold {series['contacts'][-1]:.0f} contacts and take {series['iterations'][-1]:.0f} sweeps.")
+    if series["N"][-1] > 2 * LARGE:
+        large = series[series["N"] >= LARGE]
+        exponent = numpy.polyfit(numpy.log(large["N"]), numpy.log(large["iterations"]), 1)[0]
+        report.remark(f"Above {LARGE:,} cells sweeps grow as the number of cells to the power {exponent:.2f} (fit to all rows).")
     report.numbers(["time", "N", "contacts", "iterations", "max_overlap"],
                    [list(row) for row in zip(series["time"], series["N"], series["contacts"], series["iterations"],
                                              series["max_overlap"])])
