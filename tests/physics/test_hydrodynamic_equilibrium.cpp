@@ -17,7 +17,7 @@ using namespace jostle;
 namespace {
 
 /// Z of `steps` steps, the first tenth left out.
-Average compressibility(double length, double volume_fraction, std::uint64_t count, int steps) {
+Average compressibility(double length, double volume_fraction, std::uint64_t count, int steps, double rms_step = 0.05) {
     Scene scene;
     scene.seed = 20261123;
     scene.box.volume_fraction = volume_fraction;
@@ -25,7 +25,7 @@ Average compressibility(double length, double volume_fraction, std::uint64_t cou
     scene.rods.length = length;
     scene.mobility.model = MobilityModel::hydrodynamic;
     scene.solver.tolerance = 1e-4;
-    scene.time.rms_step = 0.05;
+    scene.time.rms_step = rms_step;
     const Box box{box_edges(scene), {true, true, true}};
     Simulation simulation = assemble(scene, {box, make_start(scene, box)});
     std::vector<double> rows;
@@ -38,20 +38,27 @@ Average compressibility(double length, double volume_fraction, std::uint64_t cou
     return average(rows);
 }
 
-void check_equal(const Average& Z, double expected, double error) {
+double carnahan_starling(double phi) {
+    return (1 + phi + phi * phi - phi * phi * phi) / std::pow(1 - phi, 3);
+}
+
+void check_equal(const Average& Z, double expected, double error, double part = 0.01) {
     REQUIRE(Z.standard_error.has_value());
     const double both = std::hypot(*Z.standard_error, error);
     MESSAGE("Z = ", Z.mean, " +- ", *Z.standard_error, ", expected ", expected);
     CHECK(*Z.standard_error < 0.015 * expected);  // or the comparison would say nothing
-    CHECK(std::fabs(Z.mean - expected) <= 0.01 * expected + 2.5 * both);
+    CHECK(std::fabs(Z.mean - expected) <= part * expected + 2.5 * both);
 }
 
 }  // namespace
 
 TEST_CASE("spheres in a fluid have the pressure of hard spheres") {
-    constexpr double phi = 0.2;
-    const double expected = (1 + phi + phi * phi - phi * phi * phi) / std::pow(1 - phi, 3);  // Carnahan-Starling
-    check_equal(compressibility(0.0, phi, 108, 8000), expected, 0.0);
+    check_equal(compressibility(0.0, 0.2, 108, 8000), carnahan_starling(0.2), 0.0);
+}
+
+// With the mirrors of spheres that do not move each other Z is 4.7 % too high (theory, eq. 3.5b).
+TEST_CASE("a crowd of spheres in a fluid has it within 2 % in steps of 0.1 D, as long as is advised") {
+    check_equal(compressibility(0.0, 0.4, 108, 4000, 0.1), carnahan_starling(0.4), 0.0, 0.02);
 }
 
 // studies/reference/monte_carlo.csv

@@ -10,8 +10,8 @@
 
 namespace jostle {
 
-/// How fast noise opens the gaps of contacts, in the mean, because surfaces are curved: kT tr(M grad grad Phi) (theory,
-/// eq. 3.5a).
+/// How fast noise opens the gaps of contacts, in the mean, because surfaces are curved, of rods that feel their own
+/// drag only: kT tr(M grad grad Phi) (theory, eq. 3.5b).
 ///
 ///     d distance where they touch;  e normal;  A(k) relative mobility of the two points along k
 ///     end and end     kT [A(k) + A(k')]/d              k, k' across e

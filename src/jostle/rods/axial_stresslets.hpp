@@ -9,7 +9,8 @@ struct AxialStresslets {
     double kT = 0.0;             ///< of rods that turn thermally: their stresslets -3 kT n n are the drift kT div M
     std::vector<double> dipole;  ///< (N) force dipoles p n n of swimmers, energies; empty: none
 
-    bool any() const { return kT != 0.0 || !dipole.empty(); }
+    bool of_swimmers() const { return !dipole.empty(); }
+    bool any() const { return kT != 0.0 || of_swimmers(); }
 };
 
 }  // namespace jostle

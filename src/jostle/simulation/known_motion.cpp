@@ -54,9 +54,8 @@ void add_velocities_of_forces(const State& state, bool has_springs, const Domain
 }
 
 /// Whether anything but noise moves rods.
-bool any_drift(bool has_springs, std::span<const std::unique_ptr<Motion>> motions, const MobilityOperator& mobility) {
-    return mobility.couples_rods() || has_springs ||
-           std::ranges::any_of(motions, [](const auto& motion) { return !motion->is_noise(); });
+bool any_drift(bool has_springs, std::span<const std::unique_ptr<Motion>> motions) {
+    return has_springs || std::ranges::any_of(motions, [](const auto& motion) { return !motion->is_noise(); });
 }
 
 }  // namespace
@@ -73,12 +72,14 @@ void find_known_motion(const State& state, bool has_springs, const Domain& domai
             if (motion->is_noise() == noise) motion->add_velocities(known.velocity, rods, mobility, context);
     };
     add_velocities_of(false);
-    if (const AxialStresslets stresslets = sum_of_stresslets(motions, rods, context); stresslets.any())
-        mobility.add_axial_flow(stresslets, known.velocity);
+    const AxialStresslets stresslets = sum_of_stresslets(motions, rods, context);
+    if (stresslets.of_swimmers()) mobility.add_axial_flow(stresslets, known.velocity);
     add_velocities_of_forces(state, has_springs, domain, motions, mobility, context, known);
     keep_in_plane(state.box, linear, angular);
-    known.drift = any_drift(has_springs, motions, mobility) ? known.velocity : Velocities{0};
+    known.drift = any_drift(has_springs, motions) ? known.velocity : Velocities{0};
     add_velocities_of(true);
+    // kT div M belongs to the noise of this M; of swimmers it is found with the flow of their dipoles, above.
+    if (stresslets.any() && !stresslets.of_swimmers()) mobility.add_axial_flow(stresslets, known.velocity);
     keep_in_plane(state.box, linear, angular);
 
     known.end.resize(rods.size());

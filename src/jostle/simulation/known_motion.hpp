@@ -15,7 +15,7 @@ namespace jostle {
 /// What is known of a step before contacts are resolved (theory, section 2.1).
 struct KnownMotion {
     Velocities velocity;               ///< (N) U_known, the sum of all motions
-    Velocities drift;                  ///< (N) the same without noise; (0) where noise is all
+    Velocities drift;                  ///< (N) the same without noise and its thermal drift; (0) where these are all
     Configuration end;                 ///< (N) where it would take the rods
     std::vector<double> displacement;  ///< (N) by it, of any point of the rod, at most
     std::vector<SpringPull> pulls;     ///< of the springs

@@ -30,6 +30,8 @@ std::vector<double> reflected_forces(const ContactProblem& problem, const Contac
                                      const ArmAxes& axes, const KnownMotion& known, std::span<const RodMobility> own,
                                      const SimulationSettings& settings, double strain) {
     const GapDrift curvature(state.rods, axes, state.box, own);
+    const auto alone = [&](std::uint32_t row) { return MobileRod{axes(row), own[row]}; };
+    const bool coupled = problem.matrix().couples_rods();
     const double dt = settings.time_step;
     std::vector<double> gamma = solution.gamma;
     parallel_for(gamma.size(), [&](std::size_t l) {
@@ -38,8 +40,10 @@ std::vector<double> reflected_forces(const ContactProblem& problem, const Contac
         const double compliant = problem.matrix().diagonal()[l];
         const double rigid = compliant - problem.matrix().compliance(l);
         if (!(rigid > 0.0)) return;
-        const double drift = drift_of_motions(contact, state.rods, axes, known, dt, strain) +
-                             settings.kT * dt * curvature(contact, problem.contacts().image[l]);
+        double curved = curvature(contact, problem.contacts().image[l]);
+        if (coupled && !is_fixed(contact.i))  // theory, eq. 3.5b
+            curved *= rigid / relative_mobility(contact, alone(contact.i), alone(contact.j));
+        const double drift = drift_of_motions(contact, state.rods, axes, known, dt, strain) + settings.kT * dt * curved;
         const double sigma = std::sqrt(2.0 * settings.kT * dt * rigid);
         gamma[l] *= compliant / rigid * reflected_part(compliant * gamma[l] * dt, drift, sigma);
     });

@@ -66,6 +66,21 @@ Walk walk_at_wall(double drift, bool corrected) {
         });
 }
 
+/// At a wall at 0 near which it is less mobile: sigma = 1 + slope x, and the thermal drift (sigma^2)'/2.
+Walk walk_where_mobility_grows(double slope, bool drift_in_law) {
+    const double far = 14.0;
+    return walk(
+        0.0, far, 0.05, 10.0,
+        [&](double x, double y) {
+            const double sigma = 1.0 + slope * x;
+            return normal_density(y - x - slope * sigma, sigma);
+        },
+        [&](double y) {
+            if (y > far) return 2.0 * far - y;
+            return y > 0.0 ? y : y - y * reflected_part(-y, drift_in_law ? slope : 0.0, 1.0);
+        });
+}
+
 /// In space, outside of a sphere of radius 1; `place` is the distance from its middle.
 Walk walk_at_sphere(double sigma, bool corrected) {
     const double far = 3.0, drift = corrected ? sigma * sigma : 0.0;  // sigma^2/2 times the sum of the curvatures
@@ -79,6 +94,17 @@ Walk walk_at_sphere(double sigma, bool corrected) {
             if (y > far) return 2.0 * far - y;
             return y > 1.0 ? y : y + (1.0 - y) * reflected_part(1.0 - y, drift, sigma);
         });
+}
+
+/// How often a place between two is taken, over that at other ones.
+double often(const Walk& walk, double from, double to, double other_from, double other_to) {
+    const auto mean = [&](double begin, double end) {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < walk.place.size(); ++k)
+            if (walk.place[k] > begin && walk.place[k] < end) sum += walk.weight[k];
+        return sum / (end - begin);
+    };
+    return mean(from, to) / mean(other_from, other_to);
 }
 
 /// Density between two distances, over that a few sigma away.
@@ -127,4 +153,15 @@ TEST_CASE("walkers around a sphere are as dense near it as away from it") {
     CHECK(density(mirrored, 1.0, 1.04, sigma) > 1.06);
     CHECK(density(corrected, 1.0, 1.04, sigma) == doctest::Approx(1.0).epsilon(0.015));
     CHECK(density(corrected, 1.04, 1.1, sigma) == doctest::Approx(1.0).epsilon(0.015));
+}
+
+TEST_CASE(
+    "walkers that are less mobile at a wall are as dense there; the drift by which they get away is none of the "
+    "law's") {
+    for (const double slope : {0.02, 0.05}) {
+        CAPTURE(slope);
+        CHECK(often(walk_where_mobility_grows(slope, false), 0.0, 1.0, 3.0, 6.0) ==
+              doctest::Approx(1.0).epsilon(0.005));
+        CHECK(often(walk_where_mobility_grows(slope, true), 0.0, 1.0, 3.0, 6.0) < 1.0 - 0.4 * slope);
+    }
 }
