@@ -46,7 +46,8 @@ void ProgressLine::show(const Now& now) {
     const double elapsed = std::chrono::duration<double>(here - begin_).count();
     const double steps_per_second = static_cast<double>(now.step - first_step_) / (elapsed > 0.0 ? elapsed : 1.0);
     const double gained = now.fraction_done - first_fraction_;
-    const std::string left = gained > 0.0 ? duration(elapsed * (1.0 - now.fraction_done) / gained) : "?";
+    const char* at_least = now.cells_grow && now.fraction_done < 1.0 ? "more than " : "";
+    const std::string left = gained > 0.0 ? at_least + duration(elapsed * (1.0 - now.fraction_done) / gained) : "?";
     const std::string line = fmt::format(
         "step {}  t {:.4g}  phi {:.4f}  Z {:.3f}  overlap {:.1e} D  iterations {:.0f}  contacts {:.0f}  "
         "{:.0f} steps/s  {} left{}{}",

@@ -17,6 +17,7 @@ public:
         double iterations = 0.0;
         double contacts = 0.0;
         double fraction_done = 0.0;  ///< 0 to 1; an estimate where equilibration is detected as the run goes
+        bool cells_grow = false;     ///< what is left takes longer than as much has taken
         std::string remark = {};     ///< at the end of the line
     };
 

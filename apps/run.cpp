@@ -235,7 +235,7 @@ void Run::show_progress(const std::string& remark) {
                              : last("phi");
     progress_.show({simulation_.clock().step, simulation_.clock().time, filled, last("Z"),
                     measurement_.sums().run_max_overlap / thinnest(), last("iterations"), last("contacts"),
-                    measurement_.fraction_done(), remark});
+                    measurement_.fraction_done(), grows(run_scene_.scene), remark});
 }
 
 void Run::write_trajectory() const {

@@ -14,7 +14,7 @@ from jostle_command import (DONE, JOSTLE, RODS, SPHERES, STOPPED, changed, comma
 
 ENDLESS = changed(with_steps(RODS, 10**6), output={"checkpoint_every": 10**7})
 PROGRESS = re.compile(r"^step \d+  t \S+  phi \S+  Z \S+  overlap \S+ D  iterations \d+  contacts \d+  \d+ steps/s  "
-                      r"\S+ left(  \S.*)?$")
+                      r"(?P<left>(more than )?\S+) left(  \S.*)?$")
 
 
 def test_fresh_moves_the_old_run_aside(finished_copy, finished):
@@ -145,11 +145,11 @@ def test_plain_text_without_a_terminal(spheres):
         assert re.search(rf"^{name} += ", result.stdout, re.MULTILINE), result.stdout
 
 
-def test_one_live_line_on_a_terminal(tmp_path):
-    """On a terminal the line is written over; once it is left, nothing is glued to its end."""
-    write_scene(tmp_path, ENDLESS)
+def live_lines(folder, scene):
+    """What a run that is stopped after its third live line writes to a terminal, cut at the beginnings of live lines."""
+    write_scene(folder, scene)
     ours, theirs = pty.openpty()
-    process = subprocess.Popen([JOSTLE, "run", "scene.toml", "--out", "run", "--threads", "1"], cwd=tmp_path,
+    process = subprocess.Popen([JOSTLE, "run", "scene.toml", "--out", "run", "--threads", "1"], cwd=folder,
                                stdout=subprocess.DEVNULL, stderr=theirs)
     os.close(theirs)
     text, told = b"", False
@@ -163,11 +163,21 @@ def test_one_live_line_on_a_terminal(tmp_path):
         pass
     os.close(ours)
     assert process.wait(timeout=30) == STOPPED
-    live = text.decode().split("\r\x1b[K")
+    return text.decode().split("\r\x1b[K")
+
+
+def test_one_live_line_on_a_terminal(tmp_path):
+    """On a terminal the line is written over; once it is left, nothing is glued to its end."""
+    live = live_lines(tmp_path, ENDLESS)
     assert len(live) > 3
     for line in live[1:-1]:
         assert PROGRESS.match(line), repr(line)
     assert "\njostle: stopped at step" in live[-1].replace("\r\n", "\n")
+
+
+def test_a_run_whose_cells_grow_says_that_more_time_is_left_than_steps_of_now_would_take(tmp_path):
+    for line in live_lines(tmp_path, changed(ENDLESS, growth={"rate": 1e-4, "division_length": 6.0}))[1:-1]:
+        assert PROGRESS.match(line)["left"].startswith("more than "), repr(line)
 
 
 def test_names_that_are_not_utf_8(tmp_path):
