@@ -96,30 +96,23 @@ Walk walk_at_sphere(double sigma, bool corrected) {
         });
 }
 
-/// How often a place between two is taken, over that at other ones.
-double often(const Walk& walk, double from, double to, double other_from, double other_to) {
-    const auto mean = [&](double begin, double end) {
-        double sum = 0.0;
-        for (std::size_t k = 0; k < walk.place.size(); ++k)
-            if (walk.place[k] > begin && walk.place[k] < end) sum += walk.weight[k];
-        return sum / (end - begin);
-    };
-    return mean(from, to) / mean(other_from, other_to);
-}
+struct Range {
+    double from, to;
+};
 
-/// Density between two distances, over that a few sigma away.
-double density(const Walk& walk, double from, double to, double sigma) {
-    const auto mean = [&](double begin, double end) {
+/// Density between two places, over that at other ones, in so many dimensions.
+double density(const Walk& walk, const Range& here, const Range& there, int dimensions) {
+    const auto mean = [&](const Range& range) {
         double often = 0.0, volume = 0.0;
         for (std::size_t k = 0; k < walk.place.size(); ++k) {
             const double r = walk.place[k];
-            if (r < begin || r > end) continue;
+            if (r < range.from || r > range.to) continue;
             often += walk.weight[k];
-            volume += r * r;
+            volume += std::pow(r, dimensions - 1);
         }
         return often / volume;
     };
-    return mean(from, to) / mean(1.0 + 5.0 * sigma, 1.0 + 8.0 * sigma);
+    return mean(here) / mean(there);
 }
 
 }  // namespace
@@ -150,18 +143,17 @@ TEST_CASE("walkers that drift against a wall are as far from it as in continuous
 TEST_CASE("walkers around a sphere are as dense near it as away from it") {
     const double sigma = 0.1;
     const Walk mirrored = walk_at_sphere(sigma, false), corrected = walk_at_sphere(sigma, true);
-    CHECK(density(mirrored, 1.0, 1.04, sigma) > 1.06);
-    CHECK(density(corrected, 1.0, 1.04, sigma) == doctest::Approx(1.0).epsilon(0.015));
-    CHECK(density(corrected, 1.04, 1.1, sigma) == doctest::Approx(1.0).epsilon(0.015));
+    const Range away{1.0 + 5.0 * sigma, 1.0 + 8.0 * sigma};
+    CHECK(density(mirrored, {1.0, 1.04}, away, 3) > 1.06);
+    CHECK(density(corrected, {1.0, 1.04}, away, 3) == doctest::Approx(1.0).epsilon(0.015));
+    CHECK(density(corrected, {1.04, 1.1}, away, 3) == doctest::Approx(1.0).epsilon(0.015));
 }
 
-TEST_CASE(
-    "walkers that are less mobile at a wall are as dense there; the drift by which they get away is none of the "
-    "law's") {
+TEST_CASE("walkers that are less mobile at a wall are as dense there, if the law does not know their thermal drift") {
     for (const double slope : {0.02, 0.05}) {
         CAPTURE(slope);
-        CHECK(often(walk_where_mobility_grows(slope, false), 0.0, 1.0, 3.0, 6.0) ==
+        CHECK(density(walk_where_mobility_grows(slope, false), {0.0, 1.0}, {3.0, 6.0}, 1) ==
               doctest::Approx(1.0).epsilon(0.005));
-        CHECK(often(walk_where_mobility_grows(slope, true), 0.0, 1.0, 3.0, 6.0) < 1.0 - 0.4 * slope);
+        CHECK(density(walk_where_mobility_grows(slope, true), {0.0, 1.0}, {3.0, 6.0}, 1) < 1.0 - 0.4 * slope);
     }
 }
