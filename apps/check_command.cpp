@@ -114,8 +114,8 @@ void print_swimming(const Scene& scene, const MobilityOperator& mobility, const 
                                    (too_short ? ": the run may be too short to measure the active stress" : ""));
 }
 
-std::string step_error_text(const Rods& rods, const Box& box, double rms_step) {
-    const StepError error = known_step_error(rods, box);
+std::string step_error_text(const Scene& scene, const Rods& rods, const Box& box, double rms_step) {
+    const StepError error = known_step_error(scene, rods, box);
     return fmt::format("at most {:.2g} %, as was measured of {}", 100.0 * largest_step_error(rms_step, error),
                        error.states);
 }
@@ -136,7 +136,8 @@ void print_motion(const Scene& scene, const MobilityOperator& mobility, const Bo
         print("dt D_R", fmt::format("{:.3g}", dt * rotation));
         const double rms_step = std::sqrt(2.0 * fastest * dt) / diameter;
         print("rms step / D", fmt::format("{:.4g}", rms_step));
-        if (unknown_step_error(scene).empty()) print("error of Z by the step", step_error_text(rods, box, rms_step));
+        if (unknown_step_error(scene).empty())
+            print("error of Z by the step", step_error_text(scene, rods, box, rms_step));
     }
     const double speed = scene.motion.self_propulsion;
     if (swims(scene)) {

@@ -39,6 +39,26 @@ def test_the_smallest_of_what_motions_allow(tmp_path):
     assert fast == pytest.approx(0.04 / 8.0) and fast < alone and warnings == []
 
 
+@pytest.mark.parametrize("time", [{}, {"accuracy": 0.01}])
+def test_where_rods_order(tmp_path, time):
+    """There steps are shorter, for the same error of Z; `check` takes the step that a run takes. The paper's scheme and spheres have no part in it."""
+    def rms_step(phi, **tables):
+        scene = automatic(**{"rods": {"count": 40, "length": 5.0, "start": "aligned"}, "box": {"volume_fraction": phi}, "time": {"production": 0.2, **time}, **tables})
+        step, _ = checked(tmp_path, scene)
+        told = command(tmp_path, "check", "scene.toml").stdout
+        return step, float(re.search(r"rms step / D +(\S+)", told)[1]), re.search(r"error of Z by the step +(.*)", told)
+
+    _, isotropic, of_fluids = rms_step(0.40)
+    step, nematic, of_order = rms_step(0.44)
+    assert of_fluids[1].endswith("as was measured of isotropic fluids") and of_order[1].endswith("as was measured of rods that order")
+    assert (isotropic, nematic) == pytest.approx((0.06 * math.sqrt(0.01 / 0.009), 0.06 * math.sqrt(0.01 / 0.036)) if time else (0.04, 0.025), rel=1e-3)
+    assert command(tmp_path, "run", "scene.toml").returncode == DONE
+    assert json.loads((tmp_path / "scene.run/run.json").read_text())["time_step"] == pytest.approx(step, rel=1e-5)
+    if not time:
+        assert rms_step(0.44, rods={"count": 40, "length": 0.0})[1] == pytest.approx(0.04, rel=1e-3)
+        assert rms_step(0.44, contact={"brownian_correction": False})[1:] == (pytest.approx(0.04, rel=1e-3), None)
+
+
 def test_cells_that_grow(tmp_path):
     """A hundredth of D for the fastest cells; a run goes on at the step that it began with, whatever cells there are."""
     growth = {"rate": 1.0, "rate_deviation": 0.1, "division_length": 5.0, "death_rate": 0.5}

@@ -15,7 +15,7 @@ struct AxialBlob {
 /// itself.
 inline AxialBlob axial_blob(const AxialStresslets& stresslets, std::size_t row, const BlobLine& line,
                             std::size_t blob) {
-    const double dipole = stresslets.dipole.empty() ? 0.0 : stresslets.dipole[row];
+    const double dipole = stresslets.of_swimmers() ? stresslets.dipole[row] : 0.0;
     if (line.place.size() == 1) return {0.0, dipole};
     const double weight = line.moment_weight[blob];
     return {(dipole - 2.0 * stresslets.kT) * weight, -stresslets.kT * weight * line.place[blob]};

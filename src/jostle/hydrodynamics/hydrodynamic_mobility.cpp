@@ -93,7 +93,7 @@ public:
     }
 
     void add_axial_flow(const AxialStresslets& stresslets, Velocities& velocities) const override {
-        if (blobs_.max_blobs() < 2 && stresslets.dipole.empty()) return;  // M does not depend on the axes of spheres
+        if (blobs_.max_blobs() < 2 && !stresslets.of_swimmers()) return;  // M does not depend on the axes of spheres
         std::vector<LineVector> moved(rods().size());
         bool is_first = false;
         std::call_once(summed_, [&] {

@@ -83,7 +83,7 @@ RodPairFlow::RodPairFlow(const BlobLines& lines, const PairFlow& flow) : lines_(
 
 RodPairFlow::AxialBlobs RodPairFlow::axial_blobs(const AxialStresslets& stresslets, std::uint32_t row,
                                                  std::uint32_t line, const FourBlobs& blobs) const {
-    const double dipole = stresslets.dipole.empty() ? 0.0 : stresslets.dipole[row];
+    const double dipole = stresslets.of_swimmers() ? stresslets.dipole[row] : 0.0;
     if (lines_.lines[line].is_sphere()) return {Four{}, Four{static_cast<float>(dipole)}};
     return {four(dipole - 2.0 * stresslets.kT) * blobs.moment_weight,
             four(-stresslets.kT) * blobs.moment_weight * blobs.place};

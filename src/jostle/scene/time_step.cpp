@@ -48,8 +48,9 @@ double time_step(const Scene& scene, const Mobility& model, const Box& box, cons
         const double kT = thermal_energy(scene_at_its_hardest(scene));
         return length * length / (2.0 * fastest_diffusion(kT, *model.at(rods, box), rods.size(), box.dimensions()));
     }
-    std::optional<double> diffusion;
-    if (scene.time.accuracy) diffusion = rms_step_of_accuracy(*scene.time.accuracy, known_step_error(rods, box));
+    const std::optional<double> diffusion =
+        scene.time.accuracy ? rms_step_of_accuracy(*scene.time.accuracy, known_step_error(scene, rods, box))
+                            : rms_step_of_ordered_rods(scene, rods, box);
     return automatic_step(
         grows(scene) ? lasting_step_limits(scene, model, box) : step_limits(scene, model, box, rods, springs),
         diffusion);

@@ -13,8 +13,9 @@ namespace jostle {
 
 /// The time step of a scene: `time.step`; or that of `time.rms_step` = sqrt(2 D_t dt)/D with D_t = kT (parallel + 2
 /// perpendicular)/3 of the fastest rod and D the thinnest; or, if it names neither, the longest at which every limit
-/// has at most its automatic amount, of diffusion that of `time.accuracy` if it is given. With growth the latter is a
-/// function of the scene alone. Throws InputError (time.step) if there is no limit to find a step from.
+/// has at most its automatic amount, of diffusion that of `time.accuracy` if it is given, and less if rods order. With
+/// growth the latter is a function of the scene alone. Throws InputError (time.step) if there is no limit to find a
+/// step from.
 double time_step(const Scene& scene, const Mobility& model, const Box& box, const Rods& rods,
                  std::span<const Spring> springs = {});
 

@@ -10,7 +10,7 @@ namespace {
 StepError error_of(std::size_t count, double length) {
     Rods rods;
     for (std::size_t i = 0; i < count; ++i) rods.push_back(i, {}, {1, 0, 0}, length, 1.0);
-    return known_step_error(rods, Box({10, 10, 10}));
+    return known_step_error({}, rods, Box({10, 10, 10}));
 }
 
 }  // namespace
