@@ -67,7 +67,7 @@ def evaluate(report, runs_by_name, quick):
         equilibrium = reference_values.monte_carlo_at(BETA, phi, "aligned" if start == "aligned" else "isotropic")
         # Beyond the transition a random start is not in equilibrium: it is shown, and not judged.
         if equilibrium and not (start == "random" and phi > 0.40):
-            trusted = 0.01 if phi >= 0.48 else 0.005 if phi >= 0.38 else 0.0  # of the reference, beside its error bar
+            trusted = 0.01 if phi > 0.49 else 0.005 if 0.37 < phi < 0.41 else 0.0  # of the reference, beside its error bar
             if math.isnan(Z[1]):
                 not_judged.append(f"{state}: Z")
             elif not quick:

@@ -179,7 +179,8 @@ def run_all(jostle, runs, folder, processes):
     folder.mkdir(parents=True, exist_ok=True)
     jobs = [job_of(jostle, run, folder) for run in runs]
     done = sum(job.is_done() for job in jobs)
-    print(f"{len(jobs)} runs, {done} of them done before; the others: {side_by_side.foretold(jobs, processes)}", flush=True)
+    left = f"; the others: {side_by_side.foretold(jobs, processes)}" if done < len(jobs) else ""
+    print(f"{len(jobs)} runs, {done} of them done before{left}", flush=True)
     if side_by_side.run_all(jobs, processes, beside=folder):
         raise Stopped
     failed = [f"{job.name}: {job.failure}" for job in jobs if job.failure]

@@ -1,12 +1,13 @@
-// Metropolis Monte Carlo of hard spherocylinders, D = kT = 1, in a cubic periodic box. monte_carlo.py compiles it, runs it and judges what it prints.
+// Metropolis Monte Carlo of hard spherocylinders, D = kT = 1, in a cubic periodic box. monte_carlo.py compiles it, runs
+// it and judges what it prints.
 //
 //     monte_carlo LENGTH COUNT SEED < states > measurements
 //
-// A state is one line: volume fraction, sweeps to equilibrate, sweeps to measure, file for the last configuration. The first state starts from columns along
-// x; each other one from the last configuration of the state before, which is expanded or, bit by bit, compressed to the new density. A line "from FILE" takes
-// the configuration in that file in its place.
-// A measurement is one line: volume fraction, nematic order S, director, and how many pairs of rods first touch in each bin of the compression e, if places
-// shrink by 1 - e.
+// A state is one line: volume fraction, sweeps to equilibrate, sweeps to measure, file for the last configuration. The
+// first state starts from columns along x; each other one from the last configuration of the state before, which is
+// expanded or, bit by bit, compressed to the new density. A measurement is one line: volume fraction, nematic order S,
+// and how many pairs of rods first touch in each bin of the compression e, if places shrink by 1 - e.
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,20 +20,30 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
-
 namespace {
 
 // In place of Eigen's, for the compiler makes one loop over rods of it.
 struct Vector {
     double x = 0, y = 0, z = 0;
 };
-Vector operator+(Vector u, Vector v) { return {u.x + v.x, u.y + v.y, u.z + v.z}; }
-Vector operator-(Vector u, Vector v) { return {u.x - v.x, u.y - v.y, u.z - v.z}; }
-Vector operator*(double s, Vector v) { return {s * v.x, s * v.y, s * v.z}; }
-double dot(Vector u, Vector v) { return u.x * v.x + u.y * v.y + u.z * v.z; }
-double length(Vector v) { return std::sqrt(dot(v, v)); }
-Vector unit(Vector v) { return 1 / length(v) * v; }
+Vector operator+(Vector u, Vector v) {
+    return {u.x + v.x, u.y + v.y, u.z + v.z};
+}
+Vector operator-(Vector u, Vector v) {
+    return {u.x - v.x, u.y - v.y, u.z - v.z};
+}
+Vector operator*(double s, Vector v) {
+    return {s * v.x, s * v.y, s * v.z};
+}
+double dot(Vector u, Vector v) {
+    return u.x * v.x + u.y * v.y + u.z * v.z;
+}
+double length(Vector v) {
+    return std::sqrt(dot(v, v));
+}
+Vector unit(Vector v) {
+    return 1 / length(v) * v;
+}
 
 constexpr double skin = 1.5;      // D; neighbours are rods nearer than 1 + skin
 constexpr int sweeps_apart = 50;  // between measurements
@@ -56,7 +67,9 @@ struct Rods {
     std::vector<double> x, y, z, a, b, c;  // place and direction
 };
 
-double clamp(double value, double half) { return std::min(std::max(value, -half), half); }
+double clamp(double value, double half) {
+    return std::min(std::max(value, -half), half);
+}
 
 // Vector to the nearest image of the other rod, in a cube of this side.
 [[gnu::always_inline]] inline Vector nearest_image(double box, Rod one, Rod other) {
@@ -64,8 +77,8 @@ double clamp(double value, double half) { return std::min(std::max(value, -half)
     return r - box * Vector{std::nearbyint(r.x / box), std::nearbyint(r.y / box), std::nearbyint(r.z / box)};
 }
 
-// Shortest vector from one axis to another, of directions u and v, with the centre of the other r from that of the one: the nearest points of the lines,
-// brought to the segments one after the other.
+// Shortest vector from one axis to another, of directions u and v, with the centre of the other r from that of the one:
+// the nearest points of the lines, brought to the segments one after the other.
 [[gnu::always_inline]] inline Vector shortest(double half, Vector r, Vector u, Vector v) {
     const double ru = dot(r, u), rv = dot(r, v), uv = dot(u, v);
     const double first = clamp((ru - uv * rv) / std::max(1 - uv * uv, 1e-12), half);
@@ -82,7 +95,8 @@ double clamp(double value, double half) { return std::min(std::max(value, -half)
 class Simulation {
 public:
     // Columns along x: as many rods in a column as make the cube smallest.
-    Simulation(double length, int count, std::uint64_t seed) : half(0.5 * length), rods(count), listed(count), squared_distances(count), random(seed) {
+    Simulation(double length, int count, std::uint64_t seed)
+        : half(0.5 * length), rods(count), listed(count), squared_distances(count), random(seed) {
         box = 1e300;
         int along = 1, across = 1;
         for (int tried = 1; tried <= count; ++tried) {
@@ -91,7 +105,9 @@ public:
             if (side < box) box = side, along = tried, across = rows;
         }
         for (int i = 0; i < count; ++i)
-            rods.set(i, {box * Vector{double(i % along) / along, double(i / along % across) / across, double(i / along / across) / across}, {1, 0, 0}});
+            rods.set(i, {box * Vector{double(i % along) / along, double(i / along % across) / across,
+                                      double(i / along / across) / across},
+                         {1, 0, 0}});
         find_neighbours();
     }
 
@@ -102,18 +118,8 @@ public:
         out.precision(17);
         out << box << '\n';
         for (std::size_t i = 0; i < rods.size(); ++i)
-            out << rods.x[i] << ' ' << rods.y[i] << ' ' << rods.z[i] << ' ' << rods.a[i] << ' ' << rods.b[i] << ' ' << rods.c[i] << '\n';
-    }
-
-    void read(const std::string& file) {
-        std::ifstream in(file);
-        in >> box;
-        for (std::size_t i = 0; i < rods.size(); ++i) in >> rods.x[i] >> rods.y[i] >> rods.z[i] >> rods.a[i] >> rods.b[i] >> rods.c[i];
-        if (!in) {
-            std::cerr << file << " does not hold " << rods.size() << " rods\n";
-            std::exit(1);
-        }
-        find_neighbours();
+            out << rods.x[i] << ' ' << rods.y[i] << ' ' << rods.z[i] << ' ' << rods.a[i] << ' ' << rods.b[i] << ' '
+                << rods.c[i] << '\n';
     }
 
     // As many trials as there are rods: translations, slides along the axis, and turns.
@@ -126,7 +132,8 @@ public:
             if (kind == 1) rod.place = rod.place + steps[1] * (2 * uniform(random) - 1) * rod.direction;
             if (kind == 2) rod.direction = unit(rod.direction + steps[2] * in_ball());
             ++tried[kind];
-            if (length(rod.place - then.place) + half * length(rod.direction - then.direction) > 0.5 * skin) list_anew(i);
+            if (length(rod.place - then.place) + half * length(rod.direction - then.direction) > 0.5 * skin)
+                list_anew(i);
             if (overlaps(rod, neighbours[i])) continue;
             ++accepted[kind];
             rods.set(i, rod);
@@ -137,7 +144,8 @@ public:
     void adapt() {
         for (int kind = 0; kind < 3; ++kind) {
             const double factor = double(accepted[kind]) / double(std::max(1L, tried[kind])) / 0.4;
-            steps[kind] = std::min(steps[kind] * std::clamp(factor, 0.8, 1.25), kind == 2 ? 0.4 * skin / half : 0.5 * skin);
+            steps[kind] =
+                std::min(steps[kind] * std::clamp(factor, 0.8, 1.25), kind == 2 ? 0.4 * skin / half : 0.5 * skin);
         }
         tried = accepted = {};
     }
@@ -147,24 +155,26 @@ public:
         for (;;) {
             const double wanted = 1 - std::cbrt(volume_fraction() / fraction);
             double allowed = wanted;
-            if (wanted > 0) for_pairs([&](double compression) { allowed = std::min(allowed, compression * (1 - 1e-9)); });
+            if (wanted > 0)
+                for_pairs([&](double compression) { allowed = std::min(allowed, compression * (1 - 1e-9)); });
             box *= 1 - allowed;
-            for (std::size_t i = 0; i < rods.size(); ++i) rods.set(i, {(1 - allowed) * rods[i].place, rods[i].direction});
+            for (std::size_t i = 0; i < rods.size(); ++i)
+                rods.set(i, {(1 - allowed) * rods[i].place, rods[i].direction});
             find_neighbours();
             if (allowed == wanted) return;
             for (int i = 0; i < 5; ++i) sweep();
         }
     }
 
-    // S, the largest eigenvalue of 3/2 <n n> - 1/2, and the director, its eigenvector.
-    std::pair<double, Eigen::Vector3d> order() const {
+    // S: the largest eigenvalue of 3/2 <n n> - 1/2.
+    double order() const {
         Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
         for (std::size_t i = 0; i < rods.size(); ++i) {
             const Eigen::Vector3d n(rods.a[i], rods.b[i], rods.c[i]);
             moment += n * n.transpose() / double(rods.size());
         }
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved(moment);
-        return {1.5 * solved.eigenvalues()[2] - 0.5, solved.eigenvectors().col(2)};
+        return 1.5 * Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moment, Eigen::EigenvaluesOnly).eigenvalues()[2] -
+               0.5;
     }
 
     // How many pairs first touch in each bin of the compression. Ends the program if two rods overlap.
@@ -187,12 +197,14 @@ private:
         const double box = this->box, half = this->half;
         double least = 2;
 #pragma omp simd reduction(min : least)
-        for (std::size_t k = 0; k < others.size(); ++k) least = std::min(least, squared_distance(box, half, rod, rods[others[k]]));
+        for (std::size_t k = 0; k < others.size(); ++k)
+            least = std::min(least, squared_distance(box, half, rod, rods[others[k]]));
         return least < 1;
     }
 
-    // Lists the neighbours of all rods. Two rods are neighbours if they were nearer than 1 + skin where each was listed last; a rod that would move by half
-    // the skin from there is listed anew before. So rods that are no neighbours cannot overlap.
+    // Lists the neighbours of all rods. Two rods are neighbours if they were nearer than 1 + skin where each was listed
+    // last; a rod that would move by half the skin from there is listed anew before. So rods that are no neighbours
+    // cannot overlap.
     void find_neighbours() {
         neighbours.assign(rods.size(), {});
         listed = rods;
@@ -206,7 +218,8 @@ private:
         const double box = this->box, half = this->half;
         const Rod one = listed[i];
 #pragma omp simd
-        for (std::size_t j = 0; j < listed.size(); ++j) squared_distances[j] = squared_distance(box, half, one, listed[j]);
+        for (std::size_t j = 0; j < listed.size(); ++j)
+            squared_distances[j] = squared_distance(box, half, one, listed[j]);
         for (int j = 0; j < int(listed.size()); ++j) {
             if (j == i || squared_distances[j] > (1 + skin) * (1 + skin)) continue;
             neighbours[i].push_back(j);
@@ -214,8 +227,9 @@ private:
         }
     }
 
-    // Calls visit(compression) for every pair of neighbours: places shrunk by 1 - compression let the two touch. Newton's method: their distance falls by
-    // r.n for each unit of compression, n from one to the other. Pairs that stay apart in all bins need not be found to the digit.
+    // Calls visit(compression) for every pair of neighbours: places shrunk by 1 - compression let the two touch.
+    // Newton's method: their distance falls by r.n for each unit of compression, n from one to the other. Pairs that
+    // stay apart in all bins need not be found to the digit.
     template <class Visit>
     void for_pairs(Visit visit) const {
         for (int i = 0; i < int(rods.size()); ++i)
@@ -260,10 +274,6 @@ int main(int argc, char** argv) {
         double fraction = 0;
         long equilibration = 0, production = 0;
         std::string file;
-        if (line.rfind("from ", 0) == 0) {
-            rods.read(line.substr(5));
-            continue;
-        }
         std::istringstream(line) >> fraction >> equilibration >> production >> file;
         rods.bring_to(fraction);
         for (long done = 0; done < equilibration; ++done) {
@@ -273,8 +283,7 @@ int main(int argc, char** argv) {
         for (long done = 1; done <= production; ++done) {
             rods.sweep();
             if (done % sweeps_apart != 0) continue;
-            const auto [order, director] = rods.order();
-            std::printf("%g %.6f %.4f %.4f %.4f", fraction, order, director.x(), director.y(), director.z());
+            std::printf("%g %.6f", fraction, rods.order());
             for (long count : rods.touching()) std::printf(" %ld", count);
             std::printf("\n");
         }

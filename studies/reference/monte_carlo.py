@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 """Z and order S of hard spherocylinders by Metropolis Monte Carlo, with errors that know how slowly S moves: rows of monte_carlo.csv
 
-    python3 studies/reference/monte_carlo.py FOLDER              runs the states of L/D = 5 (two processors, two hours), and prints their rows
+    python3 studies/reference/monte_carlo.py FOLDER              runs the states of L/D = 5 (two processors, an hour and a half), and prints their rows
     python3 studies/reference/monte_carlo.py FOLDER --evaluate   prints the rows of what is there
 
-monte_carlo.cpp, compiled into FOLDER, moves the rods. Each density is reached twice, from above and from below: "expanded" starts aligned at the highest density
-and goes down, "compressed" starts aligned at the lowest and goes up, and "isotropic" starts at a density so low that aligned rods melt. Each leaves its
-measurements in FOLDER.
+monte_carlo.cpp, compiled into FOLDER, moves the rods. "expanded" starts from aligned rods at the highest density and goes down, "compressed" at the lowest and
+goes up; others start from aligned rods at one density. Each chain leaves its measurements in FOLDER.
 """
 
 import collections
@@ -19,11 +18,13 @@ import numpy
 
 LENGTH, COUNT = 5, 1000
 SWEEPS_APART, BIN_WIDTH = 50, 0.0025  # as in monte_carlo.cpp
+COLUMNS_BEFORE_COUNTS = 2             # volume fraction, S
 # (volume fraction, thousands of sweeps to equilibrate, and to measure), one after the other.
 CHAINS = {
     "expanded": [(0.50, 200, 1000), (0.48, 100, 1000), (0.46, 100, 1000), (0.44, 100, 1000), (0.42, 150, 1000)],
-    "compressed": [(0.42, 300, 1000), (0.44, 100, 1000), (0.46, 100, 1000), (0.48, 100, 1000), (0.50, 150, 1000)],
-    "isotropic": [(0.10, 20, 0), (0.38, 100, 1000), (0.40, 200, 1000)],
+    "compressed": [(0.42, 300, 1100), (0.44, 200, 900), (0.46, 200, 1900), (0.48, 100, 1000)],
+    "aligned_0.46": [(0.46, 60, 1500)],
+    "aligned_0.42": [(0.42, 200, 1100)],
 }
 
 
@@ -57,6 +58,19 @@ def mean_and_error(columns, slowest):
     return columns.mean(axis=0), means.std(axis=0, ddof=1) / math.sqrt(blocks)
 
 
+def build(folder):
+    """The program, compiled from monte_carlo.cpp."""
+    program, source = folder / "monte_carlo", pathlib.Path(__file__).resolve().with_suffix(".cpp")
+    subprocess.run(["g++", "-std=c++20", "-O3", "-march=native", "-fopenmp-simd", "-ffast-math", "-isystem", "/usr/include/eigen3", source, "-o", program],
+                   check=True)
+    return program
+
+
+def measurements(table):
+    """(rows, 2): Z and S of each measurement of one density."""
+    return numpy.column_stack([1 + table[:, COLUMNS_BEFORE_COUNTS:] @ weights_of_bins(table.shape[1] - COLUMNS_BEFORE_COUNTS), table[:, 1]])
+
+
 def evaluate(folder):
     rows = collections.defaultdict(list)
     for name in CHAINS:
@@ -65,34 +79,30 @@ def evaluate(folder):
             continue
         table = numpy.atleast_2d(numpy.loadtxt(file))
         for phi in sorted(set(table[:, 0])):
-            run = table[table[:, 0] == phi]
-            Z = 1 + run[:, 5:] @ weights_of_bins(run.shape[1] - 5)
-            S = run[:, 1]
-            slowest = correlation_time(S)
-            (mean_Z, mean_S), (error_Z, error_S) = mean_and_error(numpy.column_stack([Z, S]), slowest)
-            print(f"# {name} {phi:.2f}: Z {mean_Z:.4f} +- {error_Z:.4f}, S {mean_S:.4f} +- {error_S:.4f}, {len(S) * SWEEPS_APART} sweeps, "
+            run = measurements(table[table[:, 0] == phi])
+            slowest = correlation_time(run[:, 1])
+            (mean_Z, mean_S), (error_Z, error_S) = mean_and_error(run, slowest)
+            print(f"# {name} {phi:.2f}: Z {mean_Z:.4f} +- {error_Z:.4f}, S {mean_S:.4f} +- {error_S:.4f}, {len(run) * SWEEPS_APART} sweeps, "
                   f"S correlated over {slowest * SWEEPS_APART:.0f}")
-            rows["isotropic" if name == "isotropic" else "aligned", phi].append((mean_Z, error_Z, mean_S, error_S, len(S) * SWEEPS_APART))
+            rows[phi].append((mean_Z, error_Z, mean_S, error_S, len(run) * SWEEPS_APART))
     print("L_over_D,phi,N,start,Z,Z_err,P_star,S,S_err,sweeps")
-    for (start, phi), runs in sorted(rows.items()):
+    for phi, runs in sorted(rows.items()):
         Z, Z_error, S, S_error, sweeps = numpy.array(runs).T
         share = sweeps / sweeps.sum()
         Z, S = share @ Z, share @ S
         Z_error, S_error = (math.sqrt(share**2 @ error**2) for error in (Z_error, S_error))
-        print(f"{LENGTH},{phi:g},{COUNT},{start},{Z:.4f},{Z_error:.4f},{Z * phi:.5f},{S:.4f},{S_error:.4f},{sweeps.sum():.0f}")
+        print(f"{LENGTH},{phi:g},{COUNT},aligned,{Z:.4f},{Z_error:.4f},{Z * phi:.5f},{S:.4f},{S_error:.4f},{sweeps.sum():.0f}")
 
 
 def main(arguments):
     folder = pathlib.Path(arguments[0])
     folder.mkdir(parents=True, exist_ok=True)
     if "--evaluate" not in arguments:
-        source = pathlib.Path(__file__).resolve().with_suffix(".cpp")
-        subprocess.run(["g++", "-std=c++20", "-O3", "-march=native", "-fopenmp-simd", "-ffast-math", "-isystem", "/usr/include/eigen3", source,
-                        "-o", folder / "monte_carlo"], check=True)
+        program = build(folder)
         running = []
         for seed, (name, chain) in enumerate(CHAINS.items(), 1):
             states = "".join(f"{phi} {1000 * equilibration} {1000 * production} {folder / name}_{phi:.2f}.rods\n" for phi, equilibration, production in chain)
-            process = subprocess.Popen([folder / "monte_carlo", str(LENGTH), str(COUNT), str(seed)], stdin=subprocess.PIPE, text=True,
+            process = subprocess.Popen([program, str(LENGTH), str(COUNT), str(seed)], stdin=subprocess.PIPE, text=True,
                                        stdout=(folder / f"{name}.txt").open("w"))
             process.stdin.write(states)
             process.stdin.close()
