@@ -14,10 +14,11 @@ namespace {
 
 constexpr double reference_step = 0.06, longest_measured_step = 0.1;
 constexpr double error_of_fluids = 0.009, error_of_ordered_rods = 0.036;
-/// There the order S of nematics is right to 0.01, next to the transition to 0.02 (docs/decisions/0087).
+/// There the order S of nematics is right to 0.01, next to the transition to 0.02, if its error goes with the square of
+/// the step (docs/decisions/0087).
 constexpr double step_of_ordered_rods = 0.025;
 
-/// Whether they are long and crowded enough to.
+/// Whether rods are long and crowded enough to order.
 bool rods_order(const Scene& scene, const Rods& rods, const Box& box) {
     double aspect_ratio = 0.0;
     for (std::size_t i = 0; i < rods.size(); ++i)
