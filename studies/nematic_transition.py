@@ -23,10 +23,10 @@ LONG_STEP = 0.06
 # Thousands of steps to equilibrate and to average, from each start. Near the transition S is correlated over some 400 mu D3/kT, 20 thousand steps of 0.04 D or
 # 50 thousand of 0.025 D, and a start from perfect alignment that has to lose most of its order is given five of them and more.
 LENGTHS = {
-    "aligned": {0.38: (60, 900), 0.42: (250, 2400), 0.44: (150, 1200), 0.46: (150, 1200), 0.48: (250, 1200), 0.50: (250, 800)},
-    "random": {0.30: (20, 140), 0.38: (30, 650), 0.40: (60, 560)},
+    "aligned": {0.38: (60, 500), 0.42: (250, 1800), 0.44: (150, 900), 0.46: (150, 1000), 0.48: (200, 700), 0.50: (200, 500)},
+    "random": {0.30: (20, 140), 0.38: (30, 450), 0.40: (60, 450)},
 }
-LENGTHS_AT_LONG_STEP = {("aligned", 0.42): (60, 620), ("aligned", 0.46): (30, 190)}  # where S answers most to anything, and deep in the nematic
+LENGTHS_AT_LONG_STEP = {("aligned", 0.42): (60, 420), ("aligned", 0.46): (30, 190)}  # where S answers most to anything, and deep in the nematic
 NEMATIC = 0.4  # S above this is called nematic: the transition jumps from 0.2 to 0.57
 
 
