@@ -16,14 +16,15 @@ from weighted_fit import WeightedFit
 
 SHAPES = {5: 0.0052, 10: 0.0065, 20: 0.0065}  # L/D: volume fraction
 SPEEDS = (0.0, 0.5, 1.0, 2.0, 3.5, 5.0)  # U_0/(L D_R)
-# D. The collision pressure of rods of L/D = 5 that meet in pairs is 0.4 % too low at this step; the error goes with its square (docs/decisions/0083-arms-half-way.md).
-RMS_STEP = 0.06
-COUNT, QUICK_COUNT = 400000, 20000
-AVERAGED = 2000  # steps
+# D. The collision pressure of rods of L/D = 5 that meet in pairs is 0.4(1) % too low at 0.06 D, with an error that goes with the square of the step
+# (docs/decisions/0083-arms-half-way.md): some 0.2 % at the default step.
+RMS_STEP = 0.04
+COUNT, QUICK_COUNT = 200000, 10000
+AVERAGED = 4500  # steps
 # Swimmers gather where they meet, and slow ones take long to: at U_0 = 0.5 L D_R the collision pressure of L/D = 5 and 10 rises by 3 % until rods
 # have diffused over some seven diameters, 6 D_t t = 48 D2; longer rods take until they have turned a little.
 LEVELLED = round(48 / 3 / RMS_STEP**2)  # steps
-AT_REST = 500  # steps: a random start of few rods is close to equilibrium
+AT_REST = 1100  # steps: a random start of few rods is close to equilibrium
 
 
 def rotational_diffusion(beta):
