@@ -8,6 +8,7 @@ monte_carlo.cpp, compiled into FOLDER, moves the rods. "expanded" starts from al
 goes up; others start from aligned rods at one density. Each chain leaves its measurements in FOLDER.
 """
 
+import argparse
 import collections
 import math
 import pathlib
@@ -94,10 +95,14 @@ def evaluate(folder):
         print(f"{LENGTH},{phi:g},{COUNT},aligned,{Z:.4f},{Z_error:.4f},{Z * phi:.5f},{S:.4f},{S_error:.4f},{sweeps.sum():.0f}")
 
 
-def main(arguments):
-    folder = pathlib.Path(arguments[0])
-    folder.mkdir(parents=True, exist_ok=True)
-    if "--evaluate" not in arguments:
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=pathlib.Path, metavar="FOLDER")
+    parser.add_argument("--evaluate", action="store_true")
+    arguments = parser.parse_args()
+    folder = arguments.folder
+    if not arguments.evaluate:
+        folder.mkdir(parents=True, exist_ok=True)
         program = build(folder)
         running = []
         for seed, (name, chain) in enumerate(CHAINS.items(), 1):
@@ -113,4 +118,4 @@ def main(arguments):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()
