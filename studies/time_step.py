@@ -18,7 +18,9 @@ STATES = ((0, 0.2), (0, 0.4), (5, 0.2), (5, 0.3))  # L/D, volume fraction
 STEPS = {0.005: 100000, 0.01: 60000, 0.02: 50000, 0.03: 50000, 0.045: 30000, 0.06: 40000, 0.1: 20000, 0.15: 20000, 0.2: 20000}  # rms step: production
 QUICK_STEPS = {0.02: 12000, 0.03: 10000, 0.06: 6000, 0.1: 5000}
 AIMS = {0.03: 0.005, 0.06: 0.01}  # rms step: largest error of the corrected Z, beside two combined standard errors
-SCHEMES = ("plain", "corrected")
+SHARE = {"plain": 0.5, "corrected": 1.0}  # of STEPS: the plain errors are the larger ones
+SCHEMES = tuple(SHARE)
+TURNING = 35.0  # mu D3/kT: in this time rods of L/D = 5 turn so far that their order is forgotten
 ORDER_UP_TO, FIT_UP_TO = 0.045, 0.1  # rms steps
 LONGEST_PLAIN = 0.1  # at 0.2 rods pass through each other
 
@@ -26,7 +28,6 @@ LONGEST_PLAIN = 0.1  # at 0.2 rods pass through each other
 def runs(quick):
     steps = QUICK_STEPS if quick else STEPS
     states = STATES[:1] if quick else STATES
-    share = {"plain": 0.5, "corrected": 1.0}  # the plain errors are the larger ones
     return [Run(name=f"L{beta}_phi{phi}_rms{rms}_{scheme}",
                 scene={"seed": 2, "box": {"volume_fraction": phi},
                        "rods": {"count": 500 if quick else 1000, "length": float(beta)},
@@ -34,15 +35,25 @@ def runs(quick):
                        "time": {"rms_step": rms},
                        "solver": {"tolerance": 1e-4}},
                 equilibration=equilibration(beta, rms, production),
-                production=int(share[scheme] * production))
+                production=averaged(beta, rms, int(SHARE[scheme] * production)))
             for beta, phi in states for scheme in SCHEMES for rms, production in steps.items()
             if scheme == "corrected" or rms <= LONGEST_PLAIN]
 
 
+def turning_time(rms):
+    """TURNING in steps."""
+    return math.ceil(TURNING / (12.8 * rms**2))
+
+
 def equilibration(beta, rms, production):
-    """Steps until a random start is forgotten; rods take the time in which they turn, 35 mu D3/kT at this length."""
+    """Steps until a random start is forgotten."""
     steps = production // 10 + int(1000 * (0.03 / rms)**1.5)
-    return max(steps, math.ceil(35.0 / (12.8 * rms**2))) if beta > 0 and rms < 0.02 else steps
+    return max(steps, turning_time(rms)) if beta > 0 and rms < 0.02 else steps
+
+
+def averaged(beta, rms, production):
+    """Steps to average over: Z of rods follows their order, so that four times of turning are the least."""
+    return max(production, 4 * turning_time(rms)) if beta > 0 and rms < 0.02 else production
 
 
 class Series:
