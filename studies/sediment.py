@@ -11,7 +11,7 @@ import numpy
 import figures
 import reference_values
 from clusters import trajectory
-from report import with_error
+from report import per_cent, with_error
 from runs import Run
 
 WEIGHT = 0.25  # kT/D: the density falls by e within 4 D where spheres are dilute
@@ -43,25 +43,36 @@ def evaluate(report, runs_by_name, quick):
     means = numpy.array([[block.mean(axis=0) for block in of] for of in blocks])  # (density and pressure, blocks, layers)
     fraction = math.pi / 6 * density.mean(axis=0)
     middle = 0.5 * (edges[1:] + edges[:-1])
-    rows, numbers = [], []
+    rows, numbers, differences = [], [], []
     for layer in numpy.flatnonzero((middle > FLOOR) & (fraction >= LEAST_FRACTION)):
         ratio = pressure[:, layer].mean() / density[:, layer].mean()
-        without = [numpy.delete(means[:, :, layer], k, axis=1).mean(axis=1) for k in range(BLOCKS)]
-        jackknife = numpy.array([p / n for n, p in without])
-        error = math.sqrt((BLOCKS - 1) / BLOCKS * ((jackknife - jackknife.mean())**2).sum())
         expected = reference_values.carnahan_starling(fraction[layer])
-        numbers.append([middle[layer], fraction[layer], ratio, error, expected])
-        rows.append([f"{middle[layer]:g}", f"{fraction[layer]:.4f}", with_error(ratio, error), f"{expected:.3f}"])
-        report.compare(f"height {middle[layer]:g} D: Z from the weight above", (ratio, error), (expected, 0.0), QUICK_BOUND if quick else BOUND)
-    report.table("Z = P/(n kT) in layers of 1 D: P is the weight of the spheres above over the area.", ["height, D", "phi", "measured", "Carnahan-Starling"], rows)
-    report.numbers(["height", "phi", "Z", "Z_error", "Z_carnahan_starling"], numbers)
-    _, phi, measured, error, expected = numpy.array(numbers).T
+        without = numpy.array([numpy.delete(means[:, :, layer], k, axis=1).mean(axis=1) for k in range(BLOCKS)])
+        Z = without[:, 1] / without[:, 0]
+        error = jackknife_error(Z)
+        # A layer that holds more spheres by chance has a lower Z, and the equation of state a higher one.
+        of_fraction = reference_values.carnahan_starling(math.pi / 6 * without[:, 0])
+        error_of_difference = jackknife_error(Z - of_fraction)
+        differences.append(Z / of_fraction - 1.0)
+        numbers.append([middle[layer], fraction[layer], ratio, error, expected, error_of_difference])
+        rows.append([f"{middle[layer]:g}", f"{fraction[layer]:.4f}", with_error(ratio, error), f"{expected:.3f}", per_cent(ratio, expected, error_of_difference)])
+        report.compare(f"height {middle[layer]:g} D: Z from the weight above", (ratio, error_of_difference), (expected, 0.0), QUICK_BOUND if quick else BOUND)
+    report.table("Z = P/(n kT) in layers of 1 D: P is the weight of the spheres above over the area.", ["height, D", "phi", "measured", "Carnahan-Starling", "difference, %"], rows)
+    average = 100.0 * numpy.mean(differences, axis=0)  # per cent
+    report.remark(f"Averaged over the layers, Z differs from Carnahan and Starling by {with_error(average.mean(), jackknife_error(average), 2)} %.")
+    report.numbers(["height", "phi", "Z", "Z_error", "Z_carnahan_starling", "difference_error"], numbers)
+    _, phi, measured, _, expected, error = numpy.array(numbers).T
     figure, panel = figures.axes(size=(5.0, 3.2))
     panel.errorbar(phi, measured, 2.0 * error, fmt="o", markersize=3, capsize=2, label="weight above")
     panel.plot(phi, expected, label="Carnahan and Starling")
     panel.set(xlabel="volume fraction", ylabel="Z")
     panel.legend(frameon=False)
-    report.figure(figure, "Z of hard spheres from the profile of one sediment; two standard errors.")
+    report.figure(figure, "Z of hard spheres from the profile of one sediment; two standard errors of the difference.")
+
+
+def jackknife_error(values):
+    """Standard error of what `values` are without one block each."""
+    return math.sqrt((BLOCKS - 1) / BLOCKS * ((values - values.mean())**2).sum())
 
 
 def profiles(run, edges, area):
