@@ -4,6 +4,7 @@ import csv
 import dataclasses
 import functools
 import json
+import math
 import pathlib
 import sys
 import tomllib
@@ -128,6 +129,11 @@ def error_of_blocks(rows, count=16):
     """Half of the half width of the 95 % interval of the mean: from 16 or 8 blocks, by Student's t."""
     blocks = rows[len(rows) % count:].reshape(count, -1).mean(axis=1)
     return {16: 2.131, 8: 2.365}[count] / 1.960 * blocks.std(ddof=1) / count**0.5
+
+
+def jackknife_error(left_out):
+    """Standard error of a quantity, given what it is without each block in turn."""
+    return math.sqrt((len(left_out) - 1) / len(left_out) * ((left_out - left_out.mean())**2).sum())
 
 
 def toml(tables):

@@ -12,7 +12,7 @@ import figures
 import reference_values
 from clusters import trajectory
 from report import per_cent, with_error
-from runs import Run
+from runs import Run, jackknife_error
 
 WEIGHT = 0.25  # kT/D: the density falls by e within 4 D where spheres are dilute
 RMS_STEP = 0.06
@@ -68,11 +68,6 @@ def evaluate(report, runs_by_name, quick):
     panel.set(xlabel="volume fraction", ylabel="Z")
     panel.legend(frameon=False)
     report.figure(figure, "Z of hard spheres from the profile of one sediment; two standard errors of the difference.")
-
-
-def jackknife_error(values):
-    """Standard error of what `values` are without one block each."""
-    return math.sqrt((BLOCKS - 1) / BLOCKS * ((values - values.mean())**2).sum())
 
 
 def profiles(run, edges, area):

@@ -11,7 +11,7 @@ import numpy
 
 import figures
 from report import with_error
-from runs import Run, error_of_blocks
+from runs import Run, error_of_blocks, jackknife_error
 
 MOBILITY, ROTATION = 1.0 / (3.0 * math.pi), 1.0 / math.pi  # of a sphere, D = kT = viscosity = 1
 SPHERE = {"box": {"edges": [10.0, 10.0, 10.0], "periodic": [False, False, False]}, "walls": {"container": "sphere"}}
@@ -141,5 +141,4 @@ def over_density(run):
     pressure = series["wall_pressure_z"]
     pressures, densities = (numpy.array([part.mean() for part in numpy.array_split(rows, BLOCKS)]) for rows in (pressure, density))
     left_out = (pressures.sum() - pressures) / (densities.sum() - densities)  # jackknife of the ratio of means
-    error = math.sqrt((BLOCKS - 1.0) / BLOCKS * ((left_out - left_out.mean())**2).sum())
-    return pressures.mean() / densities.mean(), 2.365 / 1.960 * error  # Student's t of 7 degrees of freedom
+    return pressures.mean() / densities.mean(), 2.365 / 1.960 * jackknife_error(left_out)  # Student's t of 7 degrees of freedom

@@ -34,26 +34,16 @@ def runs(quick):
                        "contact": {"brownian_correction": scheme == "corrected", "overlap_limit": 0.9},
                        "time": {"rms_step": rms},
                        "solver": {"tolerance": 1e-4}},
-                equilibration=equilibration(beta, rms, production),
-                production=averaged(beta, rms, int(SHARE[scheme] * production)))
+                # A random start is forgotten, and the order of rods, which Z follows, is averaged over.
+                equilibration=max(production // 10 + int(1000 * (0.03 / rms)**1.5), turning_time(beta, rms)),
+                production=max(int(SHARE[scheme] * production), 4 * turning_time(beta, rms)))
             for beta, phi in states for scheme in SCHEMES for rms, production in steps.items()
             if scheme == "corrected" or rms <= LONGEST_PLAIN]
 
 
-def turning_time(rms):
-    """TURNING in steps."""
-    return math.ceil(TURNING / (12.8 * rms**2))
-
-
-def equilibration(beta, rms, production):
-    """Steps until a random start is forgotten."""
-    steps = production // 10 + int(1000 * (0.03 / rms)**1.5)
-    return max(steps, turning_time(rms)) if beta > 0 and rms < 0.02 else steps
-
-
-def averaged(beta, rms, production):
-    """Steps to average over: Z of rods follows their order, so that four times of turning are the least."""
-    return max(production, 4 * turning_time(rms)) if beta > 0 and rms < 0.02 else production
+def turning_time(beta, rms):
+    """TURNING in steps, for rods at short steps; spheres do not turn, and longer steps last for about four of it anyhow, or more."""
+    return math.ceil(TURNING / (12.8 * rms**2)) if beta > 0 and rms < 0.02 else 0
 
 
 class Series:
