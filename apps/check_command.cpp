@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "jostle/measurement/frame_steps.hpp"
+#include "jostle/measurement/run_length.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_box.hpp"
 #include "jostle/scene/scene_flow.hpp"
@@ -116,8 +117,8 @@ void print_swimming(const Scene& scene, const MobilityOperator& mobility, const 
 
 std::string step_error_text(const Scene& scene, const Rods& rods, const Box& box, double rms_step) {
     const StepError error = known_step_error(scene, rods, box);
-    return fmt::format("at most {:.2g} %, as was measured of {}", 100.0 * largest_step_error(rms_step, error),
-                       error.states);
+    return fmt::format("about {:.2g} %, by the largest that was measured of {}",
+                       100.0 * largest_step_error(rms_step, error), error.states);
 }
 
 void print_motion(const Scene& scene, const MobilityOperator& mobility, const Box& box, const Rods& rods, double dt) {
@@ -186,20 +187,28 @@ void print_schedule(const Scene& scene, const Box& box, double rods_volume) {
         print("averages", "take in the schedule: nothing is in equilibrium, and there are no error bars");
 }
 
-/// How many of its own clocks the production covers, and how much of it would do for error bars.
-void print_clocks(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, double phi) {
+/// How many of its own clocks the production covers, and how much of it would do for error bars, which is returned; 0
+/// where nothing tells.
+double print_clocks(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, const Box& box,
+                    double phi) {
     constexpr double margin = 1.25;  // over what is needed at the least
-    const FreeClocks clocks = free_clocks(scene, mobility, rods, phi);
-    if (grows(scene) || (clocks.rotation == 0.0 && clocks.diffusion == 0.0)) return;
+    if (grows(scene)) return 0.0;
+    const FreeClocks clocks = free_clocks(scene, mobility, rods, box, phi);
     const double production = scene.time.production;
     std::string covered, needed;
+    double enough = 0.0;
+    const auto cover = [&](double time, double least, const std::string& what) {
+        if (time == 0.0) return;
+        covered += (covered.empty() ? "" : ", ") + in_times(production / time, what);
+        if (needed.empty() && production < least * time) needed = fmt::format("{} {}s are needed", least, what);
+        enough = std::max(enough, margin * least * time);
+    };
     if (clocks.rotation > 0.0) {
         print("rotation time, alone", with_unit(clocks.rotation, scene, dimension::time));
         print("rotation time, in the crowd", fmt::format("about {:.2g} {}", clocks.slowdown * clocks.rotation,
                                                          readable_unit_of(scene, dimension::time)));
-        covered = in_times(production / clocks.rotation, "rotation time");
-        if (production < least_rotation_times * clocks.rotation)
-            needed = fmt::format("{} rotation times are needed", least_rotation_times);
+        cover(clocks.rotation, least_rotation_times, "rotation time");
+        enough *= clocks.slowdown;
     }
     if (clocks.flow > 0.0 && flows(scene)) {
         print(oscillates(scene) ? "periods of the flow" : "strain of the production",
@@ -207,18 +216,18 @@ void print_clocks(const Scene& scene, const MobilityOperator& mobility, const Ro
         if (needed.empty() && production < least_flow_times * clocks.flow)
             needed = fmt::format("{} are needed", least_flow_times);
     }
-    if (clocks.diffusion > 0.0) {
-        print("diffusion time D^2/D_t", with_unit(clocks.diffusion, scene, dimension::time));
-        covered += (covered.empty() ? "" : ", ") + in_times(production / clocks.diffusion, "diffusion time");
-        if (needed.empty() && production < least_diffusion_times * clocks.diffusion)
-            needed = fmt::format("{} diffusion times are needed", least_diffusion_times);
-    }
+    if (clocks.diffusion > 0.0) print("diffusion time D^2/D_t", with_unit(clocks.diffusion, scene, dimension::time));
+    cover(clocks.diffusion, least_diffusion_times, "diffusion time");
+    if (clocks.wall_to_wall > 0.0) print("from wall to wall", with_unit(clocks.wall_to_wall, scene, dimension::time));
+    cover(clocks.wall_to_wall, least_wall_to_wall_times, "wall-to-wall time");
+    if (clocks.volume > 0.0) print("volume relaxes in", with_unit(clocks.volume, scene, dimension::time));
+    cover(clocks.volume, least_volume_times, "relaxation time");
+    if (covered.empty()) return 0.0;
     print("production", needed.empty() ? "covers " + covered + " of a rod alone"
                                        : "too short to tell: covers " + covered + "; at least " + needed);
-    const double enough = margin * std::max(least_rotation_times * clocks.slowdown * clocks.rotation,
-                                            least_diffusion_times * clocks.diffusion);
     print("production for error bars",
           fmt::format("about {:.2g} {} (an estimate)", enough, readable_unit_of(scene, dimension::time)));
+    return enough;
 }
 
 void print_limits(const Scene& scene, const Rods& rods, const MobilityOperator& mobility,
@@ -250,7 +259,8 @@ PopulationGrowth population_growth(const Scene& scene, double time) {
 
 constexpr double max_rods = 4e9;  ///< rows have 32 bits
 
-void print_cost(const Scene& scene, const Population& population, const Box& box, double dt) {
+/// `for_errors`: the production that error bars take, about, or 0.
+void print_cost(const Scene& scene, const Population& population, const Box& box, double dt, double for_errors) {
     const double phi = population.volume / box.volume();
     // In whole rows of the series, as they are run.
     const auto every = static_cast<double>(scene.output.series_every);
@@ -271,11 +281,16 @@ void print_cost(const Scene& scene, const Population& population, const Box& box
                   fmt::format("{:.3g}{}", filled,
                               filled <= crowded(box.dimensions()) ? "" : ": cells have no room to grow so many"));
     }
+    // A run whose equilibration is to be found goes on until it has error bars, if that is not too long.
+    const double asked = scene.time.production;
+    const bool goes_on = !scene.time.equilibration && for_errors <= longest_run_in_productions * asked;
+    const double longer = goes_on ? std::max(1.0, for_errors / asked) : 1.0;
     const double rows = steps / every;
     const FrameSteps frame_steps(scene, dt, population.count);
     const double frames = frame_steps.frames(steps);
     print("steps", fmt::format("{:.6g}{}", steps,
                                scene.time.equilibration ? "" : " (if equilibration takes a quarter of production)"));
+    if (longer > 1.0) print("steps with error bars, about", fmt::format("{:.2g}", steps * longer));
     if (frame_steps.every() > 0)
         print("frames", scene.output.trajectory_times == FrameTimes::logarithmic
                             ? fmt::format("{:.0f}, at logarithmic times", frames)
@@ -284,11 +299,13 @@ void print_cost(const Scene& scene, const Population& population, const Box& box
           fmt::format("{:.0f} MB", 20.0 + count * (bytes_per_rod(densest) + bytes_of_fluid_per_rod(scene)) / 1e6));
     print("disk, about", fmt::format("{:.1f} MB", (rows * 400.0 + frames * count * 52.0 + count * 250.0) / 1e6));
     const double on_the_way = 0.5 * (phi + densest);  // of exponential growth, mean over the cells
+    const double seconds =
+        steps * population.count * growth.mean *
+        (seconds_per_rod_and_step(on_the_way) + seconds_of_fluid_per_rod_and_step(scene, on_the_way));
     print("time on one thread, about",
           colony ? "not known: the larger a colony, the longer its contact forces take to find"
-                 : fmt::format("{:.3g} s", steps * population.count * growth.mean *
-                                               (seconds_per_rod_and_step(on_the_way) +
-                                                seconds_of_fluid_per_rod_and_step(scene, on_the_way))));
+                 : fmt::format("{:.3g} s{}", seconds,
+                               longer > 1.0 ? fmt::format(", with error bars {:.2g} s", seconds * longer) : ""));
 }
 
 ExitCode check(const Scene& scene, const std::string& scene_path) {
@@ -331,9 +348,10 @@ ExitCode check(const Scene& scene, const std::string& scene_path) {
                                                         : fmt::format("{} x {} x {} cells", x, y, z));
     }
     const Ramp<Vec3> ramp_of_box = ramp_of_edges(scene, population.volume);
-    const Box last = {ramp_of_box.empty() ? box.edges() : ramp_of_box.back().value, box.periodic()};
-    print_clocks(scene_at_end(scene), *mobility, population.rods, population.volume / last.volume());
-    print_cost(scene, population, last, dt);
+    const Box last = ramp_of_box.empty() ? box : box.with_edges(ramp_of_box.back().value);
+    const double for_errors =
+        print_clocks(scene_at_end(scene), *mobility, population.rods, last, population.volume / last.volume());
+    print_cost(scene, population, last, dt, for_errors);
     return ExitCode::done;
 }
 

@@ -18,9 +18,9 @@ std::string in_words(const Annealing& annealing) {
         annealing.sweeps > 0 ? fmt::format("{} Monte Carlo sweeps of rods that may overlap and ", annealing.sweeps)
                              : "";
     const std::string state = fmt::format("Z = {:.3g} and S = {:.2g}", annealing.Z, annealing.order);
-    return fmt::format(
-        "random, annealed by {}{} large Brownian steps: {}{}", sweeps, annealing.steps, state,
-        annealing.settled ? ", without a drift" : ", still drifting at the limit of steps: equilibrium may be far");
+    return fmt::format("random, annealed by {}{} large Brownian steps: {}{}", sweeps, annealing.steps, state,
+                       annealing.settled ? ", without a drift over the last half of the steps"
+                                         : ", still drifting at the limit of steps: equilibrium may be far");
 }
 
 std::string kind_of(StartKind kind) {

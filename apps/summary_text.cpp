@@ -101,15 +101,17 @@ std::string text_of_checks(const Checks& checks, const Json& of_summary, const j
     return text.empty() ? "" : fmt::format("{}, measured and in {}\n{}", checks.ratio, checks.where, text);
 }
 
-std::string warnings_of_checks(const Checks& checks, const Json& of_summary) {
+/// Also of a run that is not in equilibrium, but then without an error.
+std::string warnings_of_checks(const Checks& checks, const Json& of_summary, bool withheld) {
     std::string text;
     for (const auto& [key, name] : checks.lines) {
         if (!of_summary.contains(key) || of_summary[key]["agree"] != Json(false)) continue;
+        const std::string error =
+            withheld ? "" : fmt::format(" +- {:.2g}", of_summary[key]["standard_error"].get<double>());
         text += fmt::format(
-            "WARNING: {}{}{} differs from that of {} by {:.3g} +- {:.2g}: the run "
+            "WARNING: {}{}{} differs from that of {} by {:.3g}{}: the run "
             "may be too short, its steps too long, or the box a bad fit to layers of rods, or no wider than a rod\n",
-            checks.before, name, checks.after, checks.where, of_summary[key]["difference"].get<double>(),
-            of_summary[key]["standard_error"].get<double>());
+            checks.before, name, checks.after, checks.where, of_summary[key]["difference"].get<double>(), error);
     }
     return text;
 }
@@ -192,13 +194,13 @@ std::string summary_text(const Json& summary, const jostle::Scene& scene) {
         if (control.value("limit_reached", false)) text += line("ended at", "pressure.limit_volume_fraction");
     }
     for (const Checks& checks : all_checks) text += text_of_checks(checks, summary["checks"], scene, withheld);
-    if (walls) text += line("principal stresses", principal_text(summary["principal_stresses"], scene) + "  (total)");
+    text += line("principal stresses", principal_text(summary["principal_stresses"], scene) + "  (total)");
     text += line("principal stresses",
                  principal_text(summary["principal_stresses_collision"], scene) + "  (of collisions)");
     text += line("equilibration time", fmt::format("{:.4g}", summary["equilibration_time"].get<double>()));
     text += line("equilibrium", (withheld ? "WARNING: " : "") + equilibrium["in_words"].get<std::string>());
     text += line("largest overlap", fmt::format("{:.2e} D", summary["max_overlap"].get<double>()));
-    for (const Checks& checks : all_checks) text += warnings_of_checks(checks, summary["checks"]);
+    for (const Checks& checks : all_checks) text += warnings_of_checks(checks, summary["checks"], withheld);
     if (summary.contains("pressure_control")) text += warning_of_held_back(summary["pressure_control"]);
     return text;
 }

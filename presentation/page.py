@@ -142,6 +142,7 @@ def _number(value):
     return float(f"{value:.6g}") if math.isfinite(value) else None
 
 
+STRESSES = {"Stress": "", "Orientation stress": "_orientation", "Collision stress": "_collision"}
 AVERAGE_HEADS = ("Quantity", "mean", "standard error", "independent samples", "unit")
 
 
@@ -149,8 +150,8 @@ def averages(run):
     if not run.summary or run.is_colony:
         return ""
     return "".join(['<h2>Averages</h2>\n<div class="tables">', table(AVERAGE_HEADS, average_rows(run)),
-                    table(("Stress", "", "", ""), stress_rows(run, "stress")),
-                    table(("Collision stress", "", "", ""), stress_rows(run, "stress_collision")), "</div>\n", reasons(run),
+                    *(table((words, "", "", ""), stress_rows(run, f"stress{part}", f"principal_stresses{part}"))
+                      for words, part in STRESSES.items() if f"stress{part}" in run.summary), "</div>\n", reasons(run),
                     checks(run)])
 
 
@@ -181,19 +182,23 @@ def average_rows(run):
     yield ("largest overlap of the run", f"{run.summary['max_overlap']:.2e}", "", "", "D")
 
 
-def stress_rows(run, name):
-    stress = run.summary.get(name)
-    if not stress:
-        return
+def stress_rows(run, name, principal_name):
+    """The tensor, and its principal values where the summary has them."""
+    stress, principal = run.summary[name], run.summary.get(principal_name)
     factor, unit = run.readable(stress.get("unit", "1"))
     largest = max(abs(factor * mean) for row in stress["mean"] for mean in row)
     power = math.floor(math.log10(largest)) if largest > 0.0 else 0
     power = 0 if -2 <= power <= 3 else power
     scale = 10.0**power / factor
+
+    def cells(means, errors):
+        return [number(mean / scale, error and error / scale) + ("" if error is None else f" ± {error / scale:.1g}") for mean, error in zip(means, errors)]
+
     for row, axis in enumerate("xyz"):
-        yield (f"{axis}x, {axis}y, {axis}z", *(
-            number(mean / scale, error and error / scale) + ("" if error is None else f" ± {error / scale:.1g}")
-            for mean, error in zip(stress["mean"][row], stress["standard_error"][row])))
+        yield (f"{axis}x, {axis}y, {axis}z", *cells(stress["mean"][row], stress["standard_error"][row]))
+    if principal:
+        values = cells(principal["mean"], principal["standard_error"])
+        yield ("principal", *values, *[""] * (3 - len(values)))
     yield ("unit", (f"10{superscript(power)} " if power else "") + unit, "", "")
 
 

@@ -97,7 +97,8 @@ def evaluate(report, runs_by_name, quick):
                      with_error(measured, check["measured"]["standard_error"] or math.nan), f"{predicted:.3f}"])
         numbers.append([start, phi, *Z, *S, correlation, entry["n_eff"], measured, predicted, error])
     report.table("Z, order S and anisotropy sigma_max/sigma_min; tau_S is the correlation time of S in mu D3/kT (free rods forget their direction in "
-                 "1/(6 D_R) = 29), n_S how many independent samples of S the run holds (below 25 the error of S is that of 8 blocks).",
+                 "1/(6 D_R) = 29), n_S how many independent samples of S the run holds (below 25 the error of S is that of 8 blocks). "
+                 "In brackets what has no error bar.",
                  ["start", "phi", "Z", "Monte Carlo Z", "difference, %", "S", "Monte Carlo S", "tau_S", "n_S", "anisotropy",
                   "predicted"], rows)
     report.table("Normal stress difference along less across the director, over n kT, in the nematic: geometric part, what equilibrium demands of it, the rest, and the whole stress (theory, eq. 1.19). "
@@ -127,7 +128,7 @@ def order(run):
 def compare_starts(report, points):
     """Hysteresis: what the two starts still differ by."""
     random = {phi: (Z, S) for phi, Z, S, *_ in points["random"]}
-    rows = [[f"{phi:.2f}", f"{Z[0] - random[phi][0][0]:+.3f} +- {math.hypot(Z[1], random[phi][0][1]):.3f}",
+    rows = [[f"{phi:.2f}", with_error(Z[0] - random[phi][0][0], math.hypot(Z[1], random[phi][0][1]), sign="+"),
              f"{S[0] - random[phi][1][0]:+.3f}"] for phi, Z, S, *_ in points["aligned"] if phi in random]
     report.table("Aligned less random start: hysteresis.", ["phi", "Z", "S"], rows)
 

@@ -115,9 +115,12 @@ def markdown(table):
     return "\n".join(lines)
 
 
-def with_error(value, error, digits=3):
-    return f"{value:.{digits}f} +- {error:.{digits}f}"
+def with_error(value, error, digits=3, sign="-"):
+    """In brackets where there is no error; `sign` "+": also of positive values."""
+    text = f"{value:{sign}.{digits}f}"
+    return f"({text})" if math.isnan(error) else f"{text} +- {error:.{digits}f}"
 
 
 def per_cent(value, expected, error):
-    return f"{100 * (value / expected - 1):+.2f} +- {100 * error / expected:.2f}"
+    difference = f"{100 * (value / expected - 1):+.2f}"
+    return f"({difference})" if math.isnan(error) else f"{difference} +- {100 * error / expected:.2f}"

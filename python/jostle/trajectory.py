@@ -21,6 +21,8 @@ class Frame:
     displaced by it along x, where a flow shears the box
     id (N), uint64; centre (N, 3), length, inside the box along periodic directions; image (N, 3), box edges crossed;
     axis (N, 3), unit vectors; length, diameter (N), length
+    stress_collision, stress_orientation (N, 3, 3), energy: with `output.stress_per_rod` each rod's part of the stress of
+    this step times the volume; None without it, and while trajectory.h5 is not made yet
     """
     step: int
     time: float
@@ -33,6 +35,8 @@ class Frame:
     length: np.ndarray
     diameter: np.ndarray
     offset: float = 0.0
+    stress_collision: np.ndarray | None = None
+    stress_orientation: np.ndarray | None = None
 
     def __len__(self):
         return len(self.id)
@@ -103,6 +107,7 @@ class H5mdTrajectory(Sequence):
         edges, offset = (np.diag(edges), float(edges[1, 0])) if edges.ndim == 2 else (edges, 0.0)
         boundary = [word.decode() if isinstance(word, bytes) else word for word in rods["box"].attrs["boundary"]]
         columns = {name: rods[f"{dataset}/value"][k][rows] for name, dataset in _DATASETS.items()}
+        columns |= {name: rods[f"{name}/value"][k][rows] for name in ("stress_collision", "stress_orientation") if name in rods}
         return Frame(step=int(self.steps[k]), time=float(self.times[k]), edges=edges, offset=offset,
                      periodic=tuple(word == "periodic" for word in boundary), id=ids[rows], **columns)
 

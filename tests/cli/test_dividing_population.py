@@ -46,7 +46,7 @@ def test_files_follow_the_number_of_cells(tmp_path):
     assert summary["equilibration_time"] == 0.0 and summary["checks"] == {}
     assert summary["rods"] == alive and mean(folder, "Z") > 1.0
     # From 10 to some 60 cells: no state of which there could be an error bar.
-    assert summary["Z"]["standard_error"] is None and "number of cells changes" in summary["Z"]["no_standard_error_because"]
+    assert summary["Z"]["standard_error"] is None and "Cells grow throughout" in summary["Z"]["no_standard_error_because"]
     assert summary["stress_collision"]["standard_error"] == 3 * [3 * [None]]
 
 
@@ -128,3 +128,13 @@ def test_lines_longer_than_ids_can_tell(tmp_path):
     assert "has had 47 divisions" in record["exit_reason"]
     assert (tmp_path / "run/post_mortem.json").exists() and (tmp_path / "run/trajectory.h5").exists()
     assert 47 * 2.0 <= column(tmp_path / "run/series.csv", "time")[-1] + 1.0 <= 48 * 2.0
+
+
+def test_cells_that_lengthen_and_do_not_divide_have_no_error_bar(tmp_path):
+    """Their number stays, and their state does not."""
+    write_scene(tmp_path, {"box": {"volume_fraction": 0.1}, "rods": {"count": 60, "length": 1.0}, "growth": {"rate": 0.02, "division_length": 9.0},
+                           "time": {"step": 0.02, "equilibration": 0.0, "production": 20.0}})
+    summary = json.loads((finish(tmp_path) / "summary.json").read_text())
+    assert summary["rods"] == 60 and summary["equilibrium"]["in_words"] == "not checked: cells grow"
+    for name in ("Z", "pressure", "nematic_order", "anisotropy"):
+        assert summary[name]["standard_error"] is None, name

@@ -83,6 +83,10 @@ def test_a_done_run(averaged):
     assert float(error) == pytest.approx(summary["Z"]["standard_error"], rel=0.05)
     assert float(n_eff) == pytest.approx(summary["Z"]["n_eff"], abs=0.5)
     assert numbers_after(page, "pressure")[-1] == "kT/D³"
+    principal = summary["principal_stresses"]
+    for shown, value, error in zip(numbers_after(page, "principal"), principal["mean"], principal["standard_error"], strict=True):
+        assert float(shown.split(" ± ")[0]) == pytest.approx(value, abs=error)
+    assert page.count(">principal<") == 2 and ">Orientation stress<" in page
     for words, check in (("stress", "total_stress_ratio"), ("collision stress", "collision_stress_ratio")):
         ratio, error, _, verdict = numbers_after(page, f"{words} along/across the director")
         measured = summary["checks"][check]["measured"]

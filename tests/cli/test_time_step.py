@@ -50,7 +50,7 @@ def test_where_rods_order(tmp_path, time):
 
     _, isotropic, of_fluids = rms_step(0.40)
     step, nematic, of_order = rms_step(0.44)
-    assert of_fluids[1].endswith("as was measured of isotropic fluids") and of_order[1].endswith("as was measured of rods that order")
+    assert of_fluids[1].endswith("measured of isotropic fluids") and of_order[1].endswith("measured of rods that order")
     assert (isotropic, nematic) == pytest.approx((0.06 * math.sqrt(0.01 / 0.009), 0.06 * math.sqrt(0.01 / 0.036)) if time else (0.04, 0.025), rel=1e-3)
     assert command(tmp_path, "run", "scene.toml").returncode == DONE
     assert json.loads((tmp_path / "scene.run/run.json").read_text())["time_step"] == pytest.approx(step, rel=1e-5)

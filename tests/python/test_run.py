@@ -7,7 +7,7 @@ import time
 import h5py
 import numpy as np
 import pytest
-from conftest import RODS
+from conftest import RODS, finished_run
 
 import jostle
 
@@ -129,3 +129,14 @@ def test_bad_folders(run_of_rods, tmp_path):
     (tmp_path / "run/trajectory.journal").unlink()
     with pytest.raises(jostle.InputError, match="the run kept no trajectory. Set output.trajectory_every"):
         run.trajectory
+
+
+def test_frames_with_the_stress_of_every_rod(tmp_path, run_of_rods):
+    """Its sum over the rods, over the volume, is the stress of the step."""
+    run = jostle.load(finished_run(tmp_path, RODS.replace("series_every = 5", "series_every = 1\nstress_per_rod = true")))
+    frame = run.trajectory[3]
+    row = run.series[run.series["step"] == frame.step]
+    assert frame.stress_collision.shape == (50, 3, 3)
+    assert frame.stress_collision.sum(axis=0)[0, 1] / frame.volume == pytest.approx(row["stress_xy"][0], rel=1e-9)
+    assert frame.stress_orientation.sum(axis=0)[0, 1] / frame.volume == pytest.approx(row["stress_orientation_xy"][0], rel=1e-4, abs=1e-6)
+    assert jostle.load(run_of_rods).trajectory[3].stress_collision is None

@@ -3,15 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "jostle/measurement/stress_columns.hpp"
 #include "jostle/measurement/summary_entries.hpp"
+#include "jostle/measurement/wall_columns.hpp"
 #include "jostle/scene/pressure_control.hpp"
+#include "jostle/scene/scene_box.hpp"
 #include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_motion.hpp"
+#include "jostle/scene/scene_walls.hpp"
 #include "jostle/scene/schedule.hpp"
 #include "jostle/statistics/equilibration.hpp"
 #include "jostle/stress/column_names.hpp"
@@ -27,14 +32,6 @@ std::size_t first_row_after(const std::vector<double>& time, double begin, doubl
     std::size_t row = 0;
     while (row < time.size() && (row == 0 ? begin : time[row - 1]) < equilibration * (1.0 - 1e-12)) ++row;
     return row;
-}
-
-/// The rows of production that have a number: active stress begins later than the others.
-WatchedColumn watched(const SeriesTable& series, std::size_t first, const char* name, const char* words) {
-    std::vector<double> rows = from_row(series.column(name), first);
-    const auto begin = std::find_if(rows.begin(), rows.end(), [](double value) { return std::isfinite(value); });
-    rows.erase(rows.begin(), begin);
-    return {words, std::move(rows)};
 }
 
 /// Of the whole stress, which a flow keeps up.
@@ -54,17 +51,47 @@ EquilibriumCheck by_schedule(const Scene& scene) {
     return check;
 }
 
+/// h.Q.h, which the energy of rods in an aligning field is proportional to.
+std::vector<double> order_along(const Vec3& axis, const SeriesTable& series, std::size_t first) {
+    const Columns order = window_columns(series, first, order_tensor_column_names);  // xx xy xz yy yz zz
+    const Vec3 h = axis / norm(axis);
+    const std::array<double, 6> weights = {h.x * h.x, 2.0 * h.x * h.y, 2.0 * h.x * h.z,
+                                           h.y * h.y, 2.0 * h.y * h.z, h.z * h.z};
+    std::vector<double> rows(order[0].size(), 0.0);
+    for (std::size_t k = 0; k < weights.size(); ++k)
+        for (std::size_t row = 0; row < rows.size(); ++row) rows[row] += weights[k] * order[k][row];
+    return rows;
+}
+
+/// What may not drift in equilibrium, but for the order and the active stress, from a row on.
+std::vector<WatchedColumn> watched_columns(const Scene& scene, const SeriesTable& series, std::size_t first) {
+    std::vector<WatchedColumn> watched;
+    const auto watch = [&](const std::string& name, const std::string& words) {
+        watched.push_back({words, from_row(series.column(name), first)});
+    };
+    watch("pressure_collision", "collision pressure");
+    if (flows(scene)) watched.push_back({"shear stress", shear_stress(scene, series, first)});
+    if (!scene.springs.file.empty()) watch("pressure_springs", "pressure of springs");
+    if (scene.pressure.external) watch("volume", "volume");
+    for (const Wall& wall : walls_of({{1, 1, 1}, box_periodic(scene), scene_walls(scene)}))
+        watch(force_column(wall), std::string("force on the wall ") + name_of(wall));
+    if (has_torques(scene))
+        watched.push_back({"order along the aligning axis", order_along(scene.forces.alignment_axis, series, first)});
+    return watched;
+}
+
 ProductionSeries production_series(const Scene& scene, const SeriesTable& series, double begin, std::size_t first,
                                    bool turn) {
     const std::vector<double>& time = series.column("time");
     ProductionSeries production;
     production.dimensions = dimensions_of(scene);
     production.row_time = time.empty() ? 0.0 : (time.back() - begin) / static_cast<double>(time.size());
-    production.watched = {watched(series, first, "pressure_collision", "collision pressure")};
-    if (flows(scene)) production.watched.push_back({"shear stress", shear_stress(scene, series, first)});
-    if (!scene.springs.file.empty())
-        production.watched.push_back(watched(series, first, "pressure_springs", "pressure of springs"));
-    if (swims(scene)) production.watched.push_back(watched(series, first, "pressure_active", "active pressure"));
+    production.watched = watched_columns(scene, series, first);
+    if (swims(scene)) {  // begins later than the others
+        std::vector<double> active = from_row(series.column("pressure_active"), first);
+        std::erase_if(active, [](double value) { return !std::isfinite(value); });
+        production.watched.push_back({"active pressure", std::move(active)});
+    }
     if (!turn) return production;
     production.order = from_row(series.column("nematic_order"), first);
     production.order_tensor = window_columns(series, first, order_tensor_column_names);
@@ -91,19 +118,17 @@ ProductionWindow production_window(const Scene& scene, const SeriesTable& series
         const std::size_t after_schedule = first_row_after(time, begin, schedule_end(scene));
         if (after_schedule == time.size() && after_schedule > 0)
             return {after_schedule, schedule_end(scene), by_schedule(scene)};
-        const auto settled = [&](const char* name) {
-            return detect_equilibration(from_row(series.column(name), after_schedule));
-        };
-        const Equilibration by_pressure = settled("pressure_collision"), by_order = settled("nematic_order");
-        std::size_t start = std::max(by_pressure.start, by_order.start);
-        if (flows(scene))
-            start = std::max(start, detect_equilibration(shear_stress(scene, series, after_schedule)).start);
+        std::size_t start = detect_equilibration(from_row(series.column("nematic_order"), after_schedule)).start;
+        for (const WatchedColumn& column : watched_columns(scene, series, after_schedule)) {
+            const Equilibration settled = detect_equilibration(column.rows);
+            start = std::max(start, settled.start);
+            if (column.name == "collision pressure") found = settled.reached;
+        }
         window.first_row = after_schedule + start;
         window.equilibration_time = window.first_row == 0 ? begin : time[window.first_row - 1];
-        found = by_pressure.reached;
     }
     if (grows(scene)) {
-        window.equilibrium.reason = "the number of cells changes";
+        window.equilibrium.reason = "cells grow";
         return window;
     }
     if (compresses(scene)) {
@@ -115,8 +140,8 @@ ProductionWindow production_window(const Scene& scene, const SeriesTable& series
         window.equilibrium = by_schedule(scene);
         return window;
     }
-    const bool turn = clocks.rotation > 0.0;
-    window.equilibrium = check_equilibrium(production_series(scene, series, begin, window.first_row, turn), clocks);
+    window.equilibrium =
+        check_equilibrium(production_series(scene, series, begin, window.first_row, clocks.axes_turn), clocks);
     if (window.equilibrated() && !found) {
         window.equilibrium.verdict = Verdict::drifting;
         window.equilibrium.reason = "the collision pressure drifts, or is worth too few independent rows";

@@ -10,8 +10,6 @@ namespace jostle {
 
 namespace {
 
-/// Where equilibration has to be detected, a run that has not settled after this many times `production` ends anyhow.
-constexpr double longest_run_in_productions = 10.0;
 /// How often, in parts of the production time, it is looked whether the series has settled.
 constexpr std::size_t looks_per_production = 20;
 

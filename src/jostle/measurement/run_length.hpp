@@ -8,6 +8,9 @@
 
 namespace jostle {
 
+/// Where equilibration has to be detected, a run that has not settled after this many times `production` ends anyhow.
+inline constexpr double longest_run_in_productions = 10.0;
+
 /// Decides, from the series alone, when a run has all that it was asked for.
 class RunLength {
 public:

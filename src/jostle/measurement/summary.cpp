@@ -126,9 +126,12 @@ void add_window(const SummarisedRun& run, Json& summary) {
 
 /// Error bars of what does not last are none.
 void withhold_errors_of_no_state(const SummarisedRun& run, Json& summary) {
-    const Average count = run.average_of("N");
-    if (count.standard_deviation > 0.0 && !count.standard_error)
-        withhold_errors(summary, "The number of cells changes throughout: averages are of no state that lasts.");
+    const auto changes = [&](const char* name) {
+        const Average found = run.average_of(name);
+        return found.standard_deviation > 0.0 && !found.standard_error;
+    };
+    if (grows(run.scene) && (changes("N") || changes("phi")))
+        withhold_errors(summary, "Cells grow throughout: averages are of no state that lasts.");
     else if (!run.window.equilibrated() && !grows(run.scene))
         withhold_errors(summary, "Equilibrium: " + in_words(run.window.equilibrium) + ".");
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "jostle/mobility/mobility.hpp"
+#include "jostle/rods/box.hpp"
 #include "jostle/rods/rods.hpp"
 #include "jostle/scene/scene.hpp"
 #include "jostle/simulation/simulation.hpp"
@@ -9,13 +10,20 @@
 namespace jostle {
 
 /// The clocks of the slowest rod, were it alone; 0 without Brownian motion (and tumbles or reversals, which turn a rod,
-/// too), that of rotation also where all are spheres. The slowdown is that of `crowding_slowdown` where rods are alike,
-/// else 1.
-FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, double volume_fraction);
+/// too), that of rotation also where all are spheres. The slowdown is that of `crowding_slowdown` at the mean L/D; of
+/// cells that grow 1. Between walls, and under pressure, rods even out faster the harder they are to compress: by
+/// `stiffness_of_spheres`, which no isotropic rods fall short of. `rods`: all, or one that stands for all.
+FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, const Box& box,
+                       double volume_fraction);
 /// Those of a simulation as its rods and box are now, after all that the schedule changes in the scene.
 FreeClocks free_clocks(const Scene& scene, const Simulation& simulation);
 
-/// By how much slower than one alone rods turn in a crowd, roughly: before a run, and for rods that are alike.
+/// d(Pi/kT)/dn of hard spheres (Carnahan and Starling, J. Chem. Phys. 51, 635 (1969)), in the plane of discs
+/// (scaled-particle theory): by so much faster than alone a density evens out, for contact forces do not change the
+/// mobility.
+double stiffness_of_spheres(double volume_fraction, int dimensions);
+
+/// By how much slower than one alone rods turn in a crowd, roughly: before a run.
 ///
 /// The order of an isotropic state relaxes more slowly by 1/|1 - c/4|, with c = (pi/4) n L^2 D times Lee's factor (1 -
 /// 3 phi/4)/(1 - phi)^2: it diverges where Onsager's isotropic state ends; beyond, it is that of a nematic, whose rods

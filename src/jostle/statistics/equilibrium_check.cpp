@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "jostle/statistics/drift.hpp"
 #include "jostle/statistics/order_parameter.hpp"
@@ -48,9 +49,9 @@ std::string too_short(const ProductionSeries& series, const FreeClocks& clocks, 
                       EquilibriumCheck& check) {
     if (clocks.diffusion > 0.0) check.diffusion_times = window / clocks.diffusion;
     check.rotation_time = clocks.rotation;
-    if (!series.order.empty() && clocks.rotation > 0.0) {
-        check.rotation_times = window / clocks.rotation;
-        if (check.rotation_times < least_rotation_times)
+    if (!series.order.empty()) {
+        if (clocks.rotation > 0.0) check.rotation_times = window / clocks.rotation;
+        if (clocks.rotation > 0.0 && check.rotation_times < least_rotation_times)
             return covers(check.rotation_times, "rotation time", least_rotation_times);
         if (average(series.order).mean < nematic_above) {
             const double decay =
@@ -60,16 +61,17 @@ std::string too_short(const ProductionSeries& series, const FreeClocks& clocks, 
             if (!std::isfinite(decay))
                 return fmt::format("crowded as they are, the rods have turned fewer than {} times",
                                    least_rotation_times);
-        } else {
+        } else if (clocks.rotation > 0.0) {
             check.rotation_time = clocks.slowdown * clocks.rotation;
             check.rotation_times = window / check.rotation_time;
         }
-        if (check.rotation_times < least_rotation_times)
+        if (check.rotation_time > 0.0 && check.rotation_times < least_rotation_times)
             return covers(check.rotation_times, "rotation time", least_rotation_times) + ", slow as the crowd is";
         const double orders =
             0.5 * static_cast<double>(series.order.size()) / correlation_time(std::span(&series.order, 1));
         if (orders < least_orders)
-            return fmt::format("covers {:.2g} independent values of the nematic order; at least {} are needed", orders,
+            return fmt::format("covers {} independent value{} of the nematic order; at least {} are needed",
+                               orders < 1.0 ? "not one" : fmt::format("{:.2g}", orders), orders < 2.0 ? "" : "s",
                                least_orders);
     }
     if (clocks.flow > 0.0) check.flow_times = window / clocks.flow;
@@ -77,6 +79,12 @@ std::string too_short(const ProductionSeries& series, const FreeClocks& clocks, 
         return covers(check.flow_times, "unit of strain, or period,", least_flow_times);
     if (clocks.diffusion > 0.0 && check.diffusion_times < least_diffusion_times)
         return covers(check.diffusion_times, "diffusion time", least_diffusion_times);
+    if (clocks.wall_to_wall > 0.0) check.wall_to_wall_times = window / clocks.wall_to_wall;
+    if (clocks.wall_to_wall > 0.0 && check.wall_to_wall_times < least_wall_to_wall_times)
+        return covers(check.wall_to_wall_times, "wall-to-wall time", least_wall_to_wall_times);
+    if (clocks.volume > 0.0) check.volume_times = window / clocks.volume;
+    if (clocks.volume > 0.0 && check.volume_times < least_volume_times)
+        return covers(check.volume_times, "relaxation time", least_volume_times);
     return "";
 }
 
@@ -115,9 +123,11 @@ std::string in_words(Verdict verdict) {
 std::string in_words(const EquilibriumCheck& check) {
     if (!check.reason.empty()) return in_words(check.verdict) + ": " + check.reason;
     std::string covered;
-    if (check.rotation_times > 0.0) covered = in_times(check.rotation_times, "rotation time");
-    if (check.diffusion_times > 0.0)
-        covered += (covered.empty() ? "" : ", ") + in_times(check.diffusion_times, "diffusion time");
+    for (const auto& [times, what] : {std::pair{check.rotation_times, "rotation time"},
+                                      {check.diffusion_times, "diffusion time"},
+                                      {check.wall_to_wall_times, "wall-to-wall time"},
+                                      {check.volume_times, "relaxation time"}})
+        if (times > 0.0) covered += (covered.empty() ? "" : ", ") + in_times(times, what);
     return in_words(check.verdict) + (covered.empty() ? "" : ": covers " + covered);
 }
 

@@ -6,13 +6,16 @@
 
 namespace jostle {
 
-/// How long a rod alone takes to forget how it lay, and by how much a crowd slows that. Where nothing turns, or nothing
-/// diffuses, the time is 0.
+/// How long what a run begins with lasts: how a rod alone lies, by how much a crowd slows that, where rods lie between
+/// walls, and the volume of the box. Where there is no such thing the time is 0.
 struct FreeClocks {
-    double rotation = 0.0;   ///< 1/(2 D_R), in the plane 1/D_R: <n(0).n(t)> has fallen to 1/e
-    double diffusion = 0.0;  ///< D^2/D_t
-    double flow = 0.0;       ///< one unit of strain; of a flow to and fro a period
-    double slowdown = 1.0;   ///< by so many times the order of the crowd relaxes more slowly, by estimate
+    double rotation = 0.0;      ///< 1/(2 D_R), in the plane 1/D_R: <n(0).n(t)> has fallen to 1/e
+    double diffusion = 0.0;     ///< D^2/D_t
+    double flow = 0.0;          ///< one unit of strain; of a flow to and fro a period
+    double slowdown = 1.0;      ///< by so many times the order of the crowd relaxes more slowly, by estimate
+    double wall_to_wall = 0.0;  ///< in which rods spread, or sink, from wall to wall
+    double volume = 0.0;        ///< in which a box under pressure finds its volume, at the longest
+    bool axes_turn = false;     ///< by noise or tumbles, or where rods swim by their neighbours
 };
 
 /// Rotation times that a window has to cover. The order tensor of free rods decays three times as fast as their axes:
@@ -28,6 +31,9 @@ inline constexpr double least_diffusion_times = 2.0;
 
 /// Units of strain, or periods, that it has to cover.
 inline constexpr double least_flow_times = 2.0;
+
+/// Times from wall to wall, and relaxation times of the volume.
+inline constexpr double least_wall_to_wall_times = 2.0, least_volume_times = 2.0;
 
 /// A column that may not drift in equilibrium.
 struct WatchedColumn {
@@ -48,22 +54,24 @@ struct ProductionSeries {
 struct EquilibriumCheck {
     enum class Verdict { reached, drifting, too_short, not_checked };
     Verdict verdict = Verdict::not_checked;
-    std::string reason;            ///< half a sentence where it was not reached
-    double rotation_time = 0.0;    ///< of a rod in the crowd
-    double rotation_times = 0.0;   ///< in the window; 0 where nothing turns
-    double diffusion_times = 0.0;  ///< likewise
-    double flow_times = 0.0;       ///< likewise, of the flow
+    std::string reason;                                   ///< half a sentence where it was not reached
+    double rotation_time = 0.0;                           ///< of a rod in the crowd
+    double rotation_times = 0.0;                          ///< in the window; 0 where nothing turns
+    double diffusion_times = 0.0;                         ///< likewise
+    double flow_times = 0.0;                              ///< likewise, of the flow
+    double wall_to_wall_times = 0.0, volume_times = 0.0;  ///< likewise
 };
 
 /// Judges the window by clocks and by drifts.
 ///
-/// Too short to tell: fewer than 4 rotation times, 2 diffusion times or 2 units of strain, or fewer than 8 independent
-/// values of the order. A rotation time is the longer of that of a free rod, which no series can shorten, and of what
-/// the series shows: the order tensor of free rods decays with 1/(6 D_R), so crowding makes it three times the
-/// correlation time of the tensor; in the plane with 1/(4 D_R), where the axis has 1/D_R: four times. Of a nematic,
-/// mean S above 0.4, the director may turn for ever, and moves nothing else; S is slow, and a window that is too short
-/// shows it too quick: there the crowd's rotation time is the estimate. Drifting: a watched column, or the order, has a
-/// significant `drift`.
+/// Too short to tell: fewer than 4 rotation times, 2 diffusion times, 2 units of strain, 2 times from wall to wall or 2
+/// relaxation times of the volume, or fewer than 8 independent values of the order. A rotation time is the longer of
+/// that of a free rod, which no series can shorten, and of what the series shows: the order tensor of free rods decays
+/// with 1/(6 D_R), so crowding makes it three times the correlation time of the tensor; in the plane with 1/(4 D_R),
+/// where the axis has 1/D_R: four times. Of a nematic, mean S above 0.4, the director may turn for ever, and moves
+/// nothing else; S is slow, and a window that is too short shows it too quick: there the crowd's rotation time is the
+/// estimate. Rods that nothing but their neighbours turns have the clock of the series alone. Drifting: a watched
+/// column, or the order, has a significant `drift`.
 EquilibriumCheck check_equilibrium(const ProductionSeries& series, const FreeClocks& clocks);
 
 /// "0.13 of a rotation time", "5.2 rotation times".

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "jostle/scene/scene_walls.hpp"
 #include "jostle/setup/assemble.hpp"
 #include "jostle/setup/free_clocks.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 FreeClocks clocks_of(const Scene& scene, double length) {
     Rods rods;
     rods.push_back(0, {}, {1, 0, 0}, length, 1.0);
-    return free_clocks(scene, *make_mobility(scene)->at(rods, {}), rods, 0.1);
+    return free_clocks(scene, *make_mobility(scene)->at(rods, {}), rods, {}, 0.1);
 }
 
 }  // namespace
@@ -40,13 +41,17 @@ TEST_CASE("a rod turns in 1/(2 D_R); tumbles turn it, too; without noise nothing
     CHECK(clocks_of(scene, 5.0).diffusion == 0.0);
 }
 
-TEST_CASE("the clocks of rods that are alike know how dense they are") {
+TEST_CASE("the clocks know how dense rods are, by their mean L/D") {
     Scene scene;
     Rods rods;
     for (std::uint64_t id : {0, 1}) rods.push_back(id, {}, {1, 0, 0}, 5.0, 1.0);
-    const auto slowdown = [&] { return free_clocks(scene, *make_mobility(scene)->at(rods, {}), rods, 0.46).slowdown; };
+    const auto slowdown = [&] {
+        return free_clocks(scene, *make_mobility(scene)->at(rods, {}), rods, {}, 0.46).slowdown;
+    };
     CHECK(slowdown() == crowding_slowdown(0.46, 5.0, 3));
-    rods.length[1] = 4.0;
+    rods.length = {4.5, 5.5};
+    CHECK(slowdown() == crowding_slowdown(0.46, 5.0, 3));
+    scene.growth.rate = 0.1;  // of cells nothing is judged
     CHECK(slowdown() == 1.0);
 }
 
@@ -70,4 +75,51 @@ TEST_CASE("a crowd slows its rods: within a factor of two of measured decays of 
             CHECK(crowding_slowdown(phi, ratio, 3) >= 1.0);
             CHECK(crowding_slowdown(phi, ratio, 3) <= 100.0);
         }
+}
+
+TEST_CASE("between walls spheres spread in H^2/(pi^2 D_c), or sink in H/(mu f)") {
+    Scene scene;
+    scene.walls.faces = {false, false, true};
+    Rods rods;
+    rods.push_back(0, {}, {1, 0, 0}, 0.0, 1.0);
+    const Box box({10, 10, 20}, {true, true, false}, scene_walls(scene));
+    const auto time = [&](double phi) {
+        return free_clocks(scene, *make_mobility(scene)->at(rods, {}), rods, box, phi).wall_to_wall;
+    };
+    const double alone = 400.0 * 3.0 / std::numbers::pi;  // H^2/(pi^2 D), D = 1/(3 pi)
+    CHECK(time(0.0) == doctest::Approx(alone));
+    // d(n Z)/dn = (1 + 4 phi + 4 phi^2 - 4 phi^3 + phi^4)/(1 - phi)^4 = 1.9296/0.4096 at 0.2
+    CHECK(time(0.2) == doctest::Approx(alone * 0.4096 / 1.9296));
+    scene.forces.on_rods = {5.0, 0.0, -2.0};
+    CHECK(time(0.0) == doctest::Approx(20.0 * 3.0 * std::numbers::pi / 2.0));
+    scene.motion.brownian = false;
+    CHECK(time(0.2) == doctest::Approx(20.0 * 3.0 * std::numbers::pi / 2.0));
+    scene.forces.on_rods = {5.0, 0.0, 0.0};
+    CHECK(time(0.2) == 0.0);  // nothing moves them across
+}
+
+TEST_CASE("a box under pressure relaxes the faster the harder its rods are to compress") {
+    Scene scene;
+    scene.pressure.external = 2.0;
+    scene.pressure.relaxation_time = 30.0;
+    Rods rods;
+    rods.push_back(0, {}, {1, 0, 0}, 0.0, 1.0);
+    const auto mobility = make_mobility(scene)->at(rods, {});
+    CHECK(free_clocks(scene, *mobility, rods, {}, 0.2).volume == doctest::Approx(30.0 * 0.4096 / 1.9296));
+}
+
+TEST_CASE("the stiffness of spheres is that of the ideal gas and the second virial coefficient where they are few") {
+    CHECK(stiffness_of_spheres(0.0, 3) == 1.0);
+    CHECK(stiffness_of_spheres(1e-6, 3) == doctest::Approx(1.0 + 8e-6).epsilon(1e-9));  // 1 + 2 B2 n, B2 = 4 v
+    CHECK(stiffness_of_spheres(1e-6, 2) == doctest::Approx(1.0 + 4e-6).epsilon(1e-9));  // of discs B2 = 2 a
+}
+
+TEST_CASE("swimmers that nothing turns but their neighbours have axes that turn, and no clock for them") {
+    Scene scene;
+    scene.motion.brownian = false;
+    CHECK(!clocks_of(scene, 3.0).axes_turn);
+    scene.motion.self_propulsion = 1.0;
+    CHECK(clocks_of(scene, 3.0).axes_turn);
+    CHECK(clocks_of(scene, 3.0).rotation == 0.0);
+    CHECK(!clocks_of(scene, 0.0).axes_turn);  // how spheres lie matters to none
 }

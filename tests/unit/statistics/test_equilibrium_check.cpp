@@ -5,6 +5,7 @@
 
 #include "autoregressive.hpp"
 #include "jostle/statistics/equilibrium_check.hpp"
+#include "jostle/statistics/time_series.hpp"
 
 using namespace jostle;
 using namespace jostle::test;
@@ -68,6 +69,36 @@ TEST_CASE("a crowd that turns more slowly than the window is long is too short t
     CHECK(too_short >= 90);
 }
 
+TEST_CASE("white noise with a slow mode, worth fewer than ten samples: the order shows what the series hides") {
+    // The pressure follows Q:Q, which decays twice as fast as Q. Alone it would have an error bar in one to seven of
+    // ten cases.
+    struct Case {
+        double share, time;  // of the mode, in standard deviations of the noise
+        std::size_t rows;
+    };
+    std::mt19937_64 generator(88);
+    MESSAGE("seed 88");
+    for (const Case& one : {Case{0.5, 300.0, 500}, Case{0.5, 100.0, 200}, Case{1.0, 30.0, 200}}) {
+        CAPTURE(one.time);
+        int alone = 0, judged = 0;
+        for (int k = 0; k < 200; ++k) {
+            ProductionSeries series = isotropic(generator, one.rows, 2.0 * one.time);
+            std::vector<double>& pressure = series.watched[0].rows;
+            pressure = autoregressive(generator, one.rows, 0.0);
+            for (std::size_t row = 0; row < one.rows; ++row) {
+                // S here is the root of six squares of 0.02^2, two thirds of three of them: mean 5, variance 10 of Q:Q
+                const double square = series.order[row] * series.order[row] / 4e-4;
+                pressure[row] += one.share * (square - 5.0) / std::sqrt(10.0);
+            }
+            const bool has_bar = average(pressure).standard_error.has_value();
+            alone += has_bar;
+            judged += has_bar && check_equilibrium(series, {10.0, 10.0}).verdict == Verdict::reached;
+        }
+        CHECK(alone > 20);
+        CHECK(judged <= 20);
+    }
+}
+
 TEST_CASE("a drifting column is named") {
     std::mt19937_64 generator(84);
     MESSAGE("seed 84");
@@ -102,6 +133,37 @@ TEST_CASE("spheres are asked for diffusion and drifts only, a nematic not for it
     CHECK(in_words(check_equilibrium(nematic, slow)) ==
           "too short to tell: covers 2.5 rotation times; at least 4 are needed, slow as the crowd is");
     CHECK(check_equilibrium(isotropic(generator, 6000, 60.0), {180.0, 50.0, 0.0, 100.0}).verdict == Verdict::reached);
+}
+
+TEST_CASE("walls and a bath are asked for two of their times") {
+    std::mt19937_64 generator(86);
+    MESSAGE("seed 86");
+    ProductionSeries spheres;
+    spheres.row_time = 0.1;
+    spheres.watched = {{"collision pressure", autoregressive(generator, 1000, 0.0)}};
+    FreeClocks clocks = {0.0, 9.4};
+    clocks.wall_to_wall = 400.0;
+    CHECK(in_words(check_equilibrium(spheres, clocks)) ==
+          "too short to tell: covers 0.25 of a wall-to-wall time; at least 2 are needed");
+    clocks.wall_to_wall = 25.0;
+    clocks.volume = 80.0;
+    CHECK(in_words(check_equilibrium(spheres, clocks)) ==
+          "too short to tell: covers 1.25 relaxation times; at least 2 are needed");
+    clocks.volume = 20.0;
+    CHECK(in_words(check_equilibrium(spheres, clocks)) ==
+          "reached: covers 10.6 diffusion times, 4 wall-to-wall times, 5 relaxation times");
+}
+
+TEST_CASE("rods that nothing turns but their neighbours are judged by how their order decays") {
+    std::mt19937_64 generator(87);
+    MESSAGE("seed 87");
+    int too_short = 0, reached = 0;
+    for (int k = 0; k < 100; ++k) {
+        too_short += check_equilibrium(isotropic(generator, 2000, 500.0), {}).verdict == Verdict::too_short;
+        reached += check_equilibrium(isotropic(generator, 6000, 60.0), {}).verdict == Verdict::reached;
+    }
+    CHECK(too_short >= 90);
+    CHECK(reached > 89);
 }
 
 TEST_CASE("nothing to judge") {

@@ -1,0 +1,139 @@
+"""What a run says of equilibrium, before and after: states that are not, though nothing in their series shows it, and the scenes of this project, which last."""
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from fenced_blocks import fenced_blocks
+from jostle_command import DONE, RODS, changed, command, finish, run, write_scene
+
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def summary_of(folder):
+    return json.loads((folder / "run/summary.json").read_text())
+
+
+def require_no_error_bar(folder, reason):
+    """No error bar in the summary, which says why."""
+    summary = summary_of(folder)
+    assert summary["equilibrated"] is False
+    assert re.match(reason, summary["equilibrium"]["in_words"])
+    for name in ("pressure", "pressure_collision", "nematic_order", "anisotropy"):
+        assert summary[name]["standard_error"] is None and re.search(reason, summary[name]["no_standard_error_because"])
+    return summary
+
+
+def test_too_short_to_tell(tmp_path):
+    """Said before the run, at the end of the live line, in the summary and on the terminal; and there is no error bar,
+    however many independent rows there seem to be. A fifteenth of a rotation time of rods of L/D = 3 at volume fraction 0.5 gave
+    21.9 +- 0.2 where 19.05(4) is right."""
+    short = changed(RODS, rods={"length": 3.0}, box={"volume_fraction": 0.5},
+                    time={"step": 0.009, "production": 2.0, "equilibration": None})
+    write_scene(tmp_path, short)
+    told = r"too short to tell: covers 0\.0[5-9]\d? of a rotation time"
+    assert re.search(rf"^production +{told}, 0\.\d+ of a diffusion time; at least 4 ", command(tmp_path, "check", "scene.toml").stdout,
+                     re.MULTILINE)
+    result = run(tmp_path)
+    assert result.returncode == DONE
+    assert re.search(told, result.stderr.splitlines()[-1])
+    assert re.search(f"^equilibrium +=.WARNING: {told}", result.stdout, re.MULTILINE)
+    assert "(n_eff" not in result.stdout
+    summary = summary_of(tmp_path)
+    assert summary["equilibrated"] is False
+    assert summary["equilibrium"]["verdict"] == "too short to tell" and re.match(told, summary["equilibrium"]["in_words"])
+    assert 0.05 < summary["equilibrium"]["rotation_times"] < 0.1
+    for name in ("Z", "pressure", "pressure_collision", "nematic_order", "anisotropy"):
+        assert summary[name]["standard_error"] is None and re.search(told, summary[name]["no_standard_error_because"])
+    assert summary["Z"]["n_eff"] >= 10 and summary["stress_collision"]["standard_error"] == 3 * [3 * [None]]
+    assert summary["time"] < 6.0, "ten times as long would be too short, too: the run ends where production does"
+
+
+def test_a_fixed_equilibration_is_tested_all_the_same(tmp_path):
+    """Rods that began aligned and are becoming isotropic, over some rotation times: the order drifts."""
+    scene = changed(RODS, rods={"start": "aligned"}, time={"equilibration": 1.0, "production": 80.0})
+    write_scene(tmp_path, scene)
+    finish(tmp_path)
+    summary = summary_of(tmp_path)
+    assert summary["equilibrated"] is False
+    assert summary["equilibrium"]["verdict"] in ("not reached", "too short to tell")
+    assert summary["Z"]["standard_error"] is None
+
+
+# Rods by default in a box by volume fraction, whose mean was 4 to 16 % off, with an error bar, where production was as short as this.
+STATES = {"L/D 10": (10.0, 0.25, 1000, 40.0, 0.11), "L/D 20": (20.0, 0.10, 1000, 40.0, 0.021), "L/D 3": (3.0, 0.5, 1000, 2.0, 0.07),
+          "L/D 5": (5.0, 0.35, 400, 24.0, 0.31)}
+
+
+@pytest.mark.parametrize("length, phi, count, production, covered", STATES.values(), ids=STATES)
+def test_four_states_are_told_to_be_too_short_before_they_run(tmp_path, length, phi, count, production, covered):
+    """Of a rotation time 1/(2 D_R) of capsules; and the production that is proposed covers four, slow as the crowd is."""
+    write_scene(tmp_path, {"box": {"volume_fraction": phi}, "rods": {"count": count, "length": length}, "time": {"production": production}})
+    told = command(tmp_path, "check", "scene.toml").stdout
+    assert f"too short to tell: covers {covered:g} of a rotation time" in told
+    alone = float(re.search(r"^rotation time, alone +(\S+)", told, re.MULTILINE)[1])
+    assert production / alone == pytest.approx(covered, rel=0.05)
+    assert float(re.search(r"^production for error bars +about (\S+)", told, re.MULTILINE)[1]) > 8 * alone
+
+
+SPHERES_IN_A_SLIT = {"box": {"edges": [8.0, 8.0, 60.0], "periodic": [True, True, False]}, "walls": {"faces": [False, False, True]},
+                     "rods": {"count": 300, "length": 0.0}, "time": {"equilibration": 1.0, "production": 24.0}}
+
+
+def test_rods_that_sink(tmp_path):
+    """They take 4000 to sink from the upper wall to the lower one; in 24 nothing drifts that noise would not hide."""
+    write_scene(tmp_path, changed(SPHERES_IN_A_SLIT, forces={"on_rods": [0.0, 0.0, -0.15]}))
+    assert "at least 2 wall-to-wall times are needed" in command(tmp_path, "check", "scene.toml").stdout
+    finish(tmp_path)
+    assert require_no_error_bar(tmp_path, "too short to tell: covers 0.0[01]")["equilibrium"]["wall_to_wall_times"] < 0.02
+
+
+def test_rods_at_one_end_of_a_slit(tmp_path):
+    """They take thousands to spread."""
+    places = [(1.1 * i + 0.6, 1.1 * j + 0.6, 1.1 * k + 0.6) for i in range(7) for j in range(7) for k in range(6)]
+    (tmp_path / "rods.csv").write_text("x,y,z,nx,ny,nz\n" + "".join(f"{x},{y},{z},1,0,0\n" for x, y, z in places))
+    write_scene(tmp_path, changed(SPHERES_IN_A_SLIT, rods={"count": len(places), "start": "file", "file": "rods.csv"}))
+    finish(tmp_path)
+    require_no_error_bar(tmp_path, "too short to tell: covers 0.0[01]")
+
+
+def test_a_box_that_has_not_found_its_volume(tmp_path):
+    """At an eighth of the pressure of its bath, which it follows in 9000."""
+    write_scene(tmp_path, {"box": {"volume_fraction": 0.1}, "rods": {"count": 200, "length": 0.0}, "time": {"equilibration": 1.0, "production": 40.0},
+                           "pressure": {"external": 2.277, "relaxation_time": 20000.0}})
+    finish(tmp_path)
+    assert require_no_error_bar(tmp_path, "too short to tell: covers 0.0")["equilibrium"]["volume_relaxation_times"] < 0.1
+
+
+def test_swimmers_that_nothing_turns(tmp_path):
+    """But their neighbours, seldom: without noise and tumbles they would never forget how they lay."""
+    write_scene(tmp_path, {"fluid": {"kT": 0.0}, "box": {"volume_fraction": 0.1}, "rods": {"count": 100, "length": 3.0},
+                           "motion": {"self_propulsion": 1.0}, "time": {"equilibration": 1.0, "production": 40.0}})
+    finish(tmp_path)
+    require_no_error_bar(tmp_path, "too short to tell: ")
+
+
+def scenes_of_the_project():
+    """Those of scenes/, and those on its pages that are whole; the key of a page is its name and the number of the scene on it."""
+    found = {path.name: path.read_text() for path in sorted((ROOT / "scenes").glob("*.toml"))}
+    for page in (ROOT / "README.md", *sorted((ROOT / "docs/guide").glob("*.md"))):
+        whole = [text for language, text in fenced_blocks(page) if language == "toml" and "production" in text and "[box]" in text]
+        found |= {f"{page.name}-{number}": text for number, text in enumerate(whole)}
+    return found
+
+
+@pytest.mark.parametrize("name, text", scenes_of_the_project().items(), ids=scenes_of_the_project())
+def test_scenes_of_the_project_last(tmp_path, name, text):
+    """As long as `jostle check` proposes for error bars, and without its warnings."""
+    folder = ROOT / "scenes" if name.endswith(".toml") else tmp_path
+    if folder == tmp_path:
+        write_scene(tmp_path, text, name)
+    checked = command(folder, "check", name)
+    assert checked.returncode == DONE, checked.stderr
+    assert "WARNING" not in checked.stdout and "too short" not in checked.stdout
+    proposed = re.search(r"^production for error bars +about (\S+)", checked.stdout, re.MULTILINE)
+    asked = float(re.search(r"^production += +(\S+)", checked.stdout, re.MULTILINE)[1])
+    assert proposed is None or asked >= float(proposed[1])
