@@ -203,12 +203,17 @@ double print_clocks(const Scene& scene, const MobilityOperator& mobility, const 
         if (needed.empty() && production < least * time) needed = fmt::format("{} {}s are needed", least, what);
         enough = std::max(enough, margin * least * time);
     };
+    if (std::isinf(clocks.rotation)) {
+        print("rotation time, alone", "without end: there is no steady state to average over");
+        return 0.0;
+    }
     if (clocks.rotation > 0.0) {
         print("rotation time, alone", with_unit(clocks.rotation, scene, dimension::time));
-        print("rotation time, in the crowd", fmt::format("about {:.2g} {}", clocks.slowdown * clocks.rotation,
-                                                         readable_unit_of(scene, dimension::time)));
+        if (clocks.axes_turn)
+            print("rotation time, in the crowd", fmt::format("about {:.2g} {}", clocks.slowdown * clocks.rotation,
+                                                             readable_unit_of(scene, dimension::time)));
         cover(clocks.rotation, least_rotation_times, "rotation time");
-        enough *= clocks.slowdown;
+        if (clocks.axes_turn) enough *= clocks.slowdown;
     }
     if (clocks.flow > 0.0 && flows(scene)) {
         print(oscillates(scene) ? "periods of the flow" : "strain of the production",
@@ -217,9 +222,12 @@ double print_clocks(const Scene& scene, const MobilityOperator& mobility, const 
             needed = fmt::format("{} are needed", least_flow_times);
     }
     if (clocks.diffusion > 0.0) print("diffusion time D^2/D_t", with_unit(clocks.diffusion, scene, dimension::time));
-    cover(clocks.diffusion, least_diffusion_times, "diffusion time");
-    if (clocks.wall_to_wall > 0.0) print("from wall to wall", with_unit(clocks.wall_to_wall, scene, dimension::time));
-    cover(clocks.wall_to_wall, least_wall_to_wall_times, "wall-to-wall time");
+    if (clocks.arrest > 1.0)
+        print("diffusion time, in the crowd", fmt::format("about {:.2g} {}", clocks.arrest * clocks.diffusion,
+                                                          readable_unit_of(scene, dimension::time)));
+    cover(clocks.arrest * clocks.diffusion, least_diffusion_times, "diffusion time");
+    if (clocks.spreading > 0.0) print("rods spread in", with_unit(clocks.spreading, scene, dimension::time));
+    cover(clocks.spreading, least_spreading_times, "spreading time");
     if (clocks.volume > 0.0) print("volume relaxes in", with_unit(clocks.volume, scene, dimension::time));
     cover(clocks.volume, least_volume_times, "relaxation time");
     if (covered.empty()) return 0.0;

@@ -86,9 +86,9 @@ SPHERES_IN_A_SLIT = {"box": {"edges": [8.0, 8.0, 60.0], "periodic": [True, True,
 def test_rods_that_sink(tmp_path):
     """They take 4000 to sink from the upper wall to the lower one; in 24 nothing drifts that noise would not hide."""
     write_scene(tmp_path, changed(SPHERES_IN_A_SLIT, forces={"on_rods": [0.0, 0.0, -0.15]}))
-    assert "at least 2 wall-to-wall times are needed" in command(tmp_path, "check", "scene.toml").stdout
+    assert "at least 2 spreading times are needed" in command(tmp_path, "check", "scene.toml").stdout
     finish(tmp_path)
-    assert require_no_error_bar(tmp_path, "too short to tell: covers 0.0[01]")["equilibrium"]["wall_to_wall_times"] < 0.02
+    assert require_no_error_bar(tmp_path, "too short to tell: covers 0.0[01]")["equilibrium"]["spreading_times"] < 0.02
 
 
 def test_rods_at_one_end_of_a_slit(tmp_path):
@@ -114,6 +114,36 @@ def test_swimmers_that_nothing_turns(tmp_path):
                            "motion": {"self_propulsion": 1.0}, "time": {"equilibration": 1.0, "production": 40.0}})
     finish(tmp_path)
     require_no_error_bar(tmp_path, "too short to tell: ")
+
+
+SPHERES_THAT_SWIM = {"fluid": {"kT": 0.0}, "box": {"volume_fraction": 0.15}, "rods": {"count": 60, "length": 0.0},
+                     "motion": {"self_propulsion": 1.0}, "time": {"equilibration": 1.0, "production": 40.0}}
+
+
+@pytest.mark.parametrize("tumble_rate, reason", [(0.001, "too short to tell: covers 0.04 of a rotation time"), (0.0, "too short to tell: covers 0 of a rotation time")])
+def test_spheres_that_swim_and_hardly_tumble(tmp_path, tumble_rate, reason):
+    """The pressure is that of the headings that they began with."""
+    write_scene(tmp_path, changed(SPHERES_THAT_SWIM, motion={"tumble_rate": tumble_rate}))
+    checked = command(tmp_path, "check", "scene.toml").stdout
+    assert "too short to tell" in checked if tumble_rate else "without end: there is no steady state" in checked
+    finish(tmp_path)
+    require_no_error_bar(tmp_path, reason)
+
+
+def test_an_open_box(tmp_path):
+    write_scene(tmp_path, {"box": {"edges": [20.0, 20.0, 20.0], "periodic": [True, True, False]}, "rods": {"count": 64, "length": 0.0},
+                           "time": {"rms_step": 0.08, "equilibration": 20.0, "production": 20.0}})
+    finish(tmp_path)
+    require_no_error_bar(tmp_path, "not reached: the box is open along z, where rods spread without end")
+
+
+def test_dense_spheres_that_begin_at_random(tmp_path):
+    """Seeds differed by forty of their errors: some began to freeze."""
+    write_scene(tmp_path, {"box": {"volume_fraction": 0.58}, "rods": {"count": 64, "length": 0.0}, "time": {"production": 24.0}})
+    told = command(tmp_path, "check", "scene.toml").stdout
+    assert re.search(r"^production +too short to tell: covers 0\.00\d+ of a diffusion time; at least 2 diffusion times are needed", told, re.MULTILINE)
+    write_scene(tmp_path, {"box": {"volume_fraction": 0.58}, "rods": {"count": 64, "length": 0.0, "start": "lattice"}, "time": {"production": 24.0}})
+    assert "too short" not in command(tmp_path, "check", "scene.toml").stdout
 
 
 def scenes_of_the_project():

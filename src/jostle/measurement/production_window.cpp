@@ -73,11 +73,20 @@ std::vector<WatchedColumn> watched_columns(const Scene& scene, const SeriesTable
     if (flows(scene)) watched.push_back({"shear stress", shear_stress(scene, series, first)});
     if (!scene.springs.file.empty()) watch("pressure_springs", "pressure of springs");
     if (scene.pressure.external) watch("volume", "volume");
-    for (const Wall& wall : walls_of({{1, 1, 1}, box_periodic(scene), scene_walls(scene)}))
-        watch(force_column(wall), std::string("force on the wall ") + name_of(wall));
+    // Both planes of a pair together: how rods are shared between them changes slowly, below the noise of each.
+    for (const WallGroup& group : wall_groups(scene_walls(scene))) watch(group.column, "pressure on " + group.in_words);
     if (has_torques(scene))
         watched.push_back({"order along the aligning axis", order_along(scene.forces.alignment_axis, series, first)});
     return watched;
+}
+
+/// The first direction along which nothing holds rods that move by themselves, or -1.
+int open_direction(const Scene& scene) {
+    if (!scene.springs.file.empty() || (thermal_energy(scene) == 0.0 && !swims(scene))) return -1;
+    const std::array<bool, 3> periodic = box_periodic(scene), walled = walled_directions(scene);
+    for (int k = 0; k < dimensions_of(scene); ++k)
+        if (!periodic[static_cast<std::size_t>(k)] && !walled[static_cast<std::size_t>(k)]) return k;
+    return -1;
 }
 
 ProductionSeries production_series(const Scene& scene, const SeriesTable& series, double begin, std::size_t first,
@@ -134,6 +143,11 @@ ProductionWindow production_window(const Scene& scene, const SeriesTable& series
     if (compresses(scene)) {
         window.equilibrium.verdict = Verdict::drifting;
         window.equilibrium.reason = "the box is compressed; what it came to is in pressure_control";
+        return window;
+    }
+    if (const int open = open_direction(scene); open >= 0) {
+        window.equilibrium.verdict = Verdict::drifting;
+        window.equilibrium.reason = fmt::format("the box is open along {}, where rods spread without end", "xyz"[open]);
         return window;
     }
     if (is_ramped(scene, window)) {

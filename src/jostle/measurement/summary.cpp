@@ -13,7 +13,6 @@
 #include "jostle/measurement/stress_summary.hpp"
 #include "jostle/measurement/summary_checks.hpp"
 #include "jostle/measurement/viscosity_at_rest.hpp"
-#include "jostle/parallel/parallel_for.hpp"
 #include "jostle/run_files/version.hpp"
 #include "jostle/scene/rod_size.hpp"
 #include "jostle/scene/scene_flow.hpp"
@@ -27,12 +26,6 @@ namespace jostle {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double mean_aspect_ratio(const Rods& rods) {
-    const auto sum =
-        parallel_sum<double>(rods.size(), [&](std::size_t i) { return rods.length[i] / rods.diameter[i]; });
-    return sum / static_cast<double>(rods.size());
-}
 
 [[noreturn]] void refuse_to_average(std::string problem, std::string suggestion) {
     throw InputError({.key = "summary", .problem = std::move(problem), .suggestion = std::move(suggestion)});

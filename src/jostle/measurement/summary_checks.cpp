@@ -28,13 +28,6 @@ Columns with_force_moment(const SummarisedRun& run) {
     return stress;
 }
 
-bool all_alike(const Rods& rods) {
-    const auto same = [](const std::vector<double>& values) {
-        return std::all_of(values.begin(), values.end(), [&](double value) { return value == values.front(); });
-    };
-    return same(rods.length) && same(rods.diameter);
-}
-
 /// Of rods in equilibrium.
 void add_equilibrium_checks(const SummarisedRun& run, Json& checks) {
     const Rods& rods = run.simulation.rods();

@@ -1,5 +1,6 @@
 #include "jostle/rods/rods.hpp"
 
+#include <algorithm>
 #include <numbers>
 
 #include "jostle/parallel/parallel_for.hpp"
@@ -14,6 +15,19 @@ double rod_volume(double length, double diameter, int dimensions) {
 double total_volume(const Rods& rods, int dimensions) {
     return parallel_sum<double>(
         rods.size(), [&](std::size_t i) { return rod_volume(rods.length[i], rods.diameter[i], dimensions); });
+}
+
+bool all_alike(const Rods& rods) {
+    const auto same = [](const std::vector<double>& values) {
+        return std::all_of(values.begin(), values.end(), [&](double value) { return value == values.front(); });
+    };
+    return same(rods.length) && same(rods.diameter);
+}
+
+double mean_aspect_ratio(const Rods& rods) {
+    const auto sum =
+        parallel_sum<double>(rods.size(), [&](std::size_t i) { return rods.length[i] / rods.diameter[i]; });
+    return sum / static_cast<double>(rods.size());
 }
 
 }  // namespace jostle

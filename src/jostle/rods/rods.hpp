@@ -64,4 +64,10 @@ double rod_volume(double length, double diameter, int dimensions = 3);
 /// Sum of the rods' volumes, or areas.
 double total_volume(const Rods& rods, int dimensions = 3);
 
+/// Whether all have one length and one diameter.
+bool all_alike(const Rods& rods);
+
+/// Mean of L/D; nan without rods.
+double mean_aspect_ratio(const Rods& rods);
+
 }  // namespace jostle

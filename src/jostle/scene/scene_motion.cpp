@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "jostle/motion/external_forces.hpp"
 #include "jostle/scene/scene_flow.hpp"
@@ -71,14 +72,42 @@ bool keeps_equilibrium(const Scene& scene) {
            std::all_of(motions.begin(), motions.end(), [](const auto& motion) { return motion->keeps_equilibrium(); });
 }
 
-double persistence_time(const Scene& scene, const MobilityOperator& mobility, std::size_t rod_count) {
-    const double kT = thermal_energy(scene);
-    const double turns = scene.motion.tumble_rate + 2.0 * scene.motion.reversal_rate;
+namespace {
+
+/// By how much longer a rod takes to turn round across a barrier, in kT.
+double slowed_by_barrier(double barrier, int dimensions) {
+    if (!(barrier > 0.0)) return 1.0;
+    if (dimensions == 2) {
+        constexpr double hops = std::numbers::pi * std::numbers::pi / 4.0;
+        const double bessel = std::cyl_bessel_i(0.0, 0.5 * barrier);
+        return hops * bessel * bessel - (hops - 1.0) * std::exp(-0.5 * barrier);
+    }
+    return std::expm1(barrier) / (2.0 * barrier) /
+           (barrier / (1.0 + barrier) * std::sqrt(barrier / std::numbers::pi) + std::exp2(-barrier - 1.0));
+}
+
+/// Of the rod that noise, slowed by a factor, and other turns turn last.
+double longest_memory(const Scene& scene, const MobilityOperator& mobility, std::size_t rod_count, double slowed,
+                      double turns) {
     const double angles = dimensions_of(scene) - 1;  // by which the axis may turn
     double longest = 0.0;
     for (std::size_t i = 0; i < rod_count; ++i)
-        longest = std::max(longest, 1.0 / (angles * kT * mobility.of_rod(i).rotational + turns));
+        longest =
+            std::max(longest, 1.0 / (angles * thermal_energy(scene) * mobility.of_rod(i).rotational / slowed + turns));
     return longest;
+}
+
+}  // namespace
+
+double persistence_time(const Scene& scene, const MobilityOperator& mobility, std::size_t rod_count) {
+    const double kT = thermal_energy(scene);
+    const double slowed = kT > 0.0 ? slowed_by_barrier(scene.forces.alignment_energy / kT, dimensions_of(scene)) : 1.0;
+    return longest_memory(scene, mobility, rod_count, slowed,
+                          scene.motion.tumble_rate + 2.0 * scene.motion.reversal_rate);
+}
+
+double axis_memory_time(const Scene& scene, const MobilityOperator& mobility, std::size_t rod_count) {
+    return longest_memory(scene, mobility, rod_count, 1.0, scene.motion.tumble_rate);
 }
 
 double active_stress_lag(const Scene& scene, const MobilityOperator& mobility, std::size_t rod_count) {

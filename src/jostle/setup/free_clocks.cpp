@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "jostle/parallel/parallel_for.hpp"
 #include "jostle/scene/pressure_control.hpp"
 #include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_motion.hpp"
@@ -14,27 +13,41 @@ namespace jostle {
 
 namespace {
 
-double mean_aspect_ratio(const Rods& rods) {
-    const auto sum =
-        parallel_sum<double>(rods.size(), [&](std::size_t i) { return rods.length[i] / rods.diameter[i]; });
-    return sum / static_cast<double>(rods.size());
+/// Whether a start may leave the density uneven along a periodic direction, as no random one and no lattice does.
+bool may_be_uneven(const Scene& scene) {
+    return scene.rods.start == StartKind::file;
 }
 
-/// In which rods come from wall to wall: diffusing, H^2/(pi^2 D), the slowest mode of a density between planes H apart;
-/// where a force drags them they sink in H/(mu f), if that is faster. `diffusion`, `mobility`: of the slowest rod.
-double wall_to_wall_time(const Scene& scene, const Box& box, double diffusion, double mobility) {
+/// In which a density evens out: between planes H apart H^2/(pi^2 D), its slowest mode, in a box of period L L^2/(4
+/// pi^2 D); swimmers take H/U_0 more. Where a force drags rods to a wall they sink in H/(mu f), if that is faster.
+/// `diffusion`, `mobility`: of the slowest rod.
+double spreading_time(const Scene& scene, const Box& box, double diffusion, double mobility) {
+    const double swimming = scene.motion.self_propulsion;
     double longest = 0.0;
     for (int k = 0; k < box.dimensions(); ++k) {
         const auto direction = static_cast<std::size_t>(k);
-        if (box.periodic()[direction]) continue;
-        if (!scene.walls.faces[direction] && scene.walls.container == Container::none) continue;
-        const double edge = box.edges()[k], speed = mobility * std::fabs(scene.forces.on_rods[k]);
-        double time = INFINITY;
-        if (diffusion > 0.0) time = edge * edge / (std::numbers::pi * std::numbers::pi * diffusion);
-        if (speed > 0.0) time = std::min(time, edge / speed);
-        if (std::isfinite(time)) longest = std::max(longest, time);
+        const bool periodic = box.periodic()[direction];
+        const bool closed = scene.walls.faces[direction] || scene.walls.container != Container::none;
+        if (periodic ? !may_be_uneven(scene) : !closed) continue;
+        const double edge = (periodic ? 0.5 : 1.0) * box.edges()[k];
+        const double speed = periodic ? 0.0 : mobility * std::fabs(scene.forces.on_rods[k]);
+        double time = diffusion > 0.0 ? edge * edge / (std::numbers::pi * std::numbers::pi * diffusion) : 0.0;
+        if (swimming > 0.0) time += edge / swimming;
+        if (speed > 0.0) time = time > 0.0 ? std::min(time, edge / speed) : edge / speed;
+        longest = std::max(longest, time);
     }
     return longest;
+}
+
+/// Of what turns rods, and swimmers.
+void set_rotation(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, FreeClocks& clocks) {
+    const bool turn = std::any_of(rods.length.begin(), rods.length.end(), [](double length) { return length > 0.0; });
+    const double memory = axis_memory_time(scene, mobility, rods.size());
+    const double persistence = persistence_time(scene, mobility, rods.size());
+    if (turn && std::isfinite(memory)) clocks.rotation = memory;
+    // Swimming rods that nothing else turns are turned by their neighbours, spheres by nothing.
+    if (swims(scene) && (std::isfinite(persistence) || !turn)) clocks.rotation = std::max(clocks.rotation, persistence);
+    clocks.axes_turn = turn && (clocks.rotation > 0.0 || swims(scene));
 }
 
 }  // namespace
@@ -44,15 +57,10 @@ FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, con
     FreeClocks clocks;
     if (rods.size() == 0) return clocks;
     const int dimensions = dimensions_of(scene);
+    set_rotation(scene, mobility, rods, clocks);
     if (!grows(scene)) clocks.slowdown = crowding_slowdown(volume_fraction, mean_aspect_ratio(rods), dimensions);
-    const bool turn = std::any_of(rods.length.begin(), rods.length.end(), [](double length) { return length > 0.0; });
-    const double persistence = turn ? persistence_time(scene, mobility, rods.size()) : 0.0;
-    if (std::isfinite(persistence)) clocks.rotation = persistence;
-    clocks.axes_turn = clocks.rotation > 0.0 || (turn && swims(scene));
-    if (oscillates(scene))
-        clocks.flow = 1.0 / scene.flow.frequency;
-    else if (flows(scene))
-        clocks.flow = 1.0 / std::fabs(scene.flow.shear_rate);
+    if (flows(scene))
+        clocks.flow = oscillates(scene) ? 1.0 / scene.flow.frequency : 1.0 / std::fabs(scene.flow.shear_rate);
     double slowest = INFINITY;  // of all rods, their translational mobility
     const double kT = thermal_energy(scene);
     for (std::size_t i = 0; i < rods.size(); ++i) {
@@ -61,9 +69,14 @@ FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, con
         if (kT > 0.0)
             clocks.diffusion = std::max(clocks.diffusion, rods.diameter[i] * rods.diameter[i] / (kT * of_rod));
     }
+    if (scene.rods.start == StartKind::random || scene.rods.start == StartKind::aligned)
+        clocks.arrest = diffusion_arrest(volume_fraction, dimensions);
     const double stiffness = stiffness_of_spheres(volume_fraction, dimensions), speed = scene.motion.self_propulsion;
-    const double spreading = kT * slowest * stiffness + speed * speed * clocks.rotation / dimensions;
-    clocks.wall_to_wall = wall_to_wall_time(scene, box, spreading, slowest);
+    const double heading = speed > 0.0 ? persistence_time(scene, mobility, rods.size()) : 0.0;
+    // Rods that differ have to change places, which no pressure hastens.
+    const double spreading = kT * slowest * (all_alike(rods) ? stiffness : 1.0) +
+                             (std::isfinite(heading) ? speed * speed * heading / dimensions : 0.0);
+    clocks.spreading = spreading_time(scene, box, spreading, slowest);
     if (scene.pressure.external && kT > 0.0) {
         const double of_a_rod = total_volume(rods, dimensions) / static_cast<double>(rods.size());
         const double count = std::round(volume_fraction * box.volume() / of_a_rod);
@@ -83,6 +96,13 @@ double stiffness_of_spheres(double volume_fraction, int dimensions) {
     const double phi = std::min(volume_fraction, 0.6), room = 1.0 - phi;
     if (dimensions == 2) return (1.0 + phi) / (room * room * room);
     return (1.0 + phi * (4.0 + phi * (4.0 + phi * (phi - 4.0)))) / (room * room * room * room);
+}
+
+double diffusion_arrest(double volume_fraction, int dimensions) {
+    const double arrested = dimensions == 2 ? 0.80 : 0.58;
+    const double long_time = std::pow(std::max(1e-3, 1.0 - volume_fraction / arrested), 1.2);  // D_L/D_0
+    constexpr double structure = 12.0 / 49.0;  // twelve times 1/(q^2 D_L), in D^2/D_L, q = 7/D
+    return std::max(1.0, structure / least_diffusion_times / long_time);
 }
 
 double crowding_slowdown(double volume_fraction, double aspect_ratio, int dimensions) {

@@ -9,10 +9,14 @@
 
 namespace jostle {
 
-/// The clocks of the slowest rod, were it alone; 0 without Brownian motion (and tumbles or reversals, which turn a rod,
-/// too), that of rotation also where all are spheres. The slowdown is that of `crowding_slowdown` at the mean L/D; of
-/// cells that grow 1. Between walls, and under pressure, rods even out faster the harder they are to compress: by
-/// `stiffness_of_spheres`, which no isotropic rods fall short of. `rods`: all, or one that stands for all.
+/// The clocks of the slowest rod, were it alone; 0 without Brownian motion (and tumbles, which turn a rod, too), that
+/// of rotation also where all are spheres that do not swim. Swimmers are asked for the longer of how long they keep
+/// their direction and how long an axis is remembered; of those that nothing turns it is infinite where they are
+/// spheres, and 0, so that the series is asked, where they are rods. The slowdown is that of `crowding_slowdown` at the
+/// mean L/D; of cells that grow 1. Between walls, under pressure, and from rods of a file a density evens out faster
+/// the harder rods are to compress: by `stiffness_of_spheres`, which no isotropic rods fall short of, if all are alike.
+/// Random starts (and aligned ones, whose places are random) have `diffusion_arrest`. `rods`: all, or one that stands
+/// for all.
 FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, const Box& box,
                        double volume_fraction);
 /// Those of a simulation as its rods and box are now, after all that the schedule changes in the scene.
@@ -22,6 +26,12 @@ FreeClocks free_clocks(const Scene& scene, const Simulation& simulation);
 /// (scaled-particle theory): by so much faster than alone a density evens out, for contact forces do not change the
 /// mobility.
 double stiffness_of_spheres(double volume_fraction, int dimensions);
+
+/// By how much longer the diffusion time of a window has to be taken in a crowd, so that two hold twelve structural
+/// relaxation times 1/(q^2 D_L), q = 7/D. The long-time diffusion D_L of hard spheres is taken for D_0 (1 -
+/// phi/0.58)^1.2, 0.6, 0.25 and 0.1 of it at 0.2, 0.4 and 0.49, where they freeze; in the plane with 0.80 for 0.58. 1
+/// below a volume fraction of 0.48.
+double diffusion_arrest(double volume_fraction, int dimensions);
 
 /// By how much slower than one alone rods turn in a crowd, roughly: before a run.
 ///

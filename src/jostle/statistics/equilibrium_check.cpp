@@ -47,12 +47,14 @@ std::string covers(double number, const char* what, double least) {
 /// Why the window is too short; empty where it is not. Fills in what it covers.
 std::string too_short(const ProductionSeries& series, const FreeClocks& clocks, double window,
                       EquilibriumCheck& check) {
-    if (clocks.diffusion > 0.0) check.diffusion_times = window / clocks.diffusion;
-    check.rotation_time = clocks.rotation;
-    if (!series.order.empty()) {
-        if (clocks.rotation > 0.0) check.rotation_times = window / clocks.rotation;
-        if (clocks.rotation > 0.0 && check.rotation_times < least_rotation_times)
+    if (clocks.diffusion > 0.0) check.diffusion_times = window / (clocks.arrest * clocks.diffusion);
+    if (clocks.rotation > 0.0) {
+        check.rotation_times = window / clocks.rotation;
+        if (check.rotation_times < least_rotation_times)
             return covers(check.rotation_times, "rotation time", least_rotation_times);
+    }
+    if (!series.order.empty()) {
+        check.rotation_time = clocks.rotation;
         if (average(series.order).mean < nematic_above) {
             const double decay =
                 tensor_decays_per_rotation(series.dimensions) * decay_of_tensor(series.order_tensor) * series.row_time;
@@ -78,10 +80,11 @@ std::string too_short(const ProductionSeries& series, const FreeClocks& clocks, 
     if (clocks.flow > 0.0 && check.flow_times < least_flow_times)
         return covers(check.flow_times, "unit of strain, or period,", least_flow_times);
     if (clocks.diffusion > 0.0 && check.diffusion_times < least_diffusion_times)
-        return covers(check.diffusion_times, "diffusion time", least_diffusion_times);
-    if (clocks.wall_to_wall > 0.0) check.wall_to_wall_times = window / clocks.wall_to_wall;
-    if (clocks.wall_to_wall > 0.0 && check.wall_to_wall_times < least_wall_to_wall_times)
-        return covers(check.wall_to_wall_times, "wall-to-wall time", least_wall_to_wall_times);
+        return covers(check.diffusion_times, "diffusion time", least_diffusion_times) +
+               (clocks.arrest > 1.0 ? ", slow as the crowd is" : "");
+    if (clocks.spreading > 0.0) check.spreading_times = window / clocks.spreading;
+    if (clocks.spreading > 0.0 && check.spreading_times < least_spreading_times)
+        return covers(check.spreading_times, "spreading time", least_spreading_times);
     if (clocks.volume > 0.0) check.volume_times = window / clocks.volume;
     if (clocks.volume > 0.0 && check.volume_times < least_volume_times)
         return covers(check.volume_times, "relaxation time", least_volume_times);
@@ -125,7 +128,7 @@ std::string in_words(const EquilibriumCheck& check) {
     std::string covered;
     for (const auto& [times, what] : {std::pair{check.rotation_times, "rotation time"},
                                       {check.diffusion_times, "diffusion time"},
-                                      {check.wall_to_wall_times, "wall-to-wall time"},
+                                      {check.spreading_times, "spreading time"},
                                       {check.volume_times, "relaxation time"}})
         if (times > 0.0) covered += (covered.empty() ? "" : ", ") + in_times(times, what);
     return in_words(check.verdict) + (covered.empty() ? "" : ": covers " + covered);

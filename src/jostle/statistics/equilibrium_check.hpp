@@ -9,13 +9,14 @@ namespace jostle {
 /// How long what a run begins with lasts: how a rod alone lies, by how much a crowd slows that, where rods lie between
 /// walls, and the volume of the box. Where there is no such thing the time is 0.
 struct FreeClocks {
-    double rotation = 0.0;      ///< 1/(2 D_R), in the plane 1/D_R: <n(0).n(t)> has fallen to 1/e
-    double diffusion = 0.0;     ///< D^2/D_t
-    double flow = 0.0;          ///< one unit of strain; of a flow to and fro a period
-    double slowdown = 1.0;      ///< by so many times the order of the crowd relaxes more slowly, by estimate
-    double wall_to_wall = 0.0;  ///< in which rods spread, or sink, from wall to wall
-    double volume = 0.0;        ///< in which a box under pressure finds its volume, at the longest
-    bool axes_turn = false;     ///< by noise or tumbles, or where rods swim by their neighbours
+    double rotation = 0.0;   ///< 1/(2 D_R), in the plane 1/D_R: <n(0).n(t)> has fallen to 1/e
+    double diffusion = 0.0;  ///< D^2/D_t
+    double flow = 0.0;       ///< one unit of strain; of a flow to and fro a period
+    double slowdown = 1.0;   ///< by so many times the order of the crowd relaxes more slowly, by estimate
+    double spreading = 0.0;  ///< in which a density evens out that a wall, or a start, makes uneven
+    double volume = 0.0;     ///< in which a box under pressure finds its volume, at the longest
+    bool axes_turn = false;  ///< by noise or tumbles, or where rods swim by their neighbours
+    double arrest = 1.0;     ///< by so many times the crowd lengthens the diffusion time, next to where rods are caged
 };
 
 /// Rotation times that a window has to cover. The order tensor of free rods decays three times as fast as their axes:
@@ -33,7 +34,7 @@ inline constexpr double least_diffusion_times = 2.0;
 inline constexpr double least_flow_times = 2.0;
 
 /// Times from wall to wall, and relaxation times of the volume.
-inline constexpr double least_wall_to_wall_times = 2.0, least_volume_times = 2.0;
+inline constexpr double least_spreading_times = 2.0, least_volume_times = 2.0;
 
 /// A column that may not drift in equilibrium.
 struct WatchedColumn {
@@ -54,12 +55,12 @@ struct ProductionSeries {
 struct EquilibriumCheck {
     enum class Verdict { reached, drifting, too_short, not_checked };
     Verdict verdict = Verdict::not_checked;
-    std::string reason;                                   ///< half a sentence where it was not reached
-    double rotation_time = 0.0;                           ///< of a rod in the crowd
-    double rotation_times = 0.0;                          ///< in the window; 0 where nothing turns
-    double diffusion_times = 0.0;                         ///< likewise
-    double flow_times = 0.0;                              ///< likewise, of the flow
-    double wall_to_wall_times = 0.0, volume_times = 0.0;  ///< likewise
+    std::string reason;                                ///< half a sentence where it was not reached
+    double rotation_time = 0.0;                        ///< of a rod in the crowd
+    double rotation_times = 0.0;                       ///< in the window; 0 where nothing turns
+    double diffusion_times = 0.0;                      ///< likewise
+    double flow_times = 0.0;                           ///< likewise, of the flow
+    double spreading_times = 0.0, volume_times = 0.0;  ///< likewise
 };
 
 /// Judges the window by clocks and by drifts.

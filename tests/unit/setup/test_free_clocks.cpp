@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "jostle/scene/scene_walls.hpp"
 #include "jostle/setup/assemble.hpp"
@@ -84,7 +86,7 @@ TEST_CASE("between walls spheres spread in H^2/(pi^2 D_c), or sink in H/(mu f)")
     rods.push_back(0, {}, {1, 0, 0}, 0.0, 1.0);
     const Box box({10, 10, 20}, {true, true, false}, scene_walls(scene));
     const auto time = [&](double phi) {
-        return free_clocks(scene, *make_mobility(scene)->at(rods, {}), rods, box, phi).wall_to_wall;
+        return free_clocks(scene, *make_mobility(scene)->at(rods, {}), rods, box, phi).spreading;
     };
     const double alone = 400.0 * 3.0 / std::numbers::pi;  // H^2/(pi^2 D), D = 1/(3 pi)
     CHECK(time(0.0) == doctest::Approx(alone));
@@ -122,4 +124,75 @@ TEST_CASE("swimmers that nothing turns but their neighbours have axes that turn,
     CHECK(clocks_of(scene, 3.0).axes_turn);
     CHECK(clocks_of(scene, 3.0).rotation == 0.0);
     CHECK(!clocks_of(scene, 0.0).axes_turn);  // how spheres lie matters to none
+}
+
+TEST_CASE("spheres that swim keep their direction, for ever where nothing turns them") {
+    Scene scene;
+    scene.motion.brownian = false;
+    scene.motion.self_propulsion = 1.0;
+    CHECK(std::isinf(clocks_of(scene, 0.0).rotation));
+    scene.motion.tumble_rate = 0.01;
+    CHECK(clocks_of(scene, 0.0).rotation == doctest::Approx(100.0));
+    CHECK(!clocks_of(scene, 0.0).axes_turn);
+}
+
+TEST_CASE("reversals turn no axis") {
+    Scene scene;
+    const double alone = clocks_of(scene, 5.0).rotation;
+    scene.motion.self_propulsion = 0.01;
+    scene.motion.reversal_rate = 10.0;
+    CHECK(clocks_of(scene, 5.0).rotation == doctest::Approx(alone));
+}
+
+TEST_CASE("swimmers in an aligning field have to cross its barrier to turn round, other rods not") {
+    // The smallest eigenvalues of Smoluchowski's equation, by finite differences, are 1/1.531, 1/4.243 and 1/135.8 of 2
+    // D_R at 1, 3 and 8 kT; in the plane 1/1.702, 1/5.968 and 1/314.8 of D_R.
+    Scene scene;
+    const double alone = clocks_of(scene, 5.0).rotation;
+    scene.forces.alignment_energy = 8.0;
+    CHECK(clocks_of(scene, 5.0).rotation == doctest::Approx(alone));
+    scene.motion.self_propulsion = 1.0;
+    for (const auto& [barrier, slower] : {std::pair{1.0, 1.531}, {3.0, 4.243}, {8.0, 135.8}}) {
+        scene.forces.alignment_energy = barrier;
+        CHECK(clocks_of(scene, 5.0).rotation == doctest::Approx(slower * alone).epsilon(0.09));
+    }
+    scene.box.dimensions = 2;
+    scene.forces.alignment_energy = 0.0;
+    const double in_plane = clocks_of(scene, 5.0).rotation;
+    for (const auto& [barrier, slower] : {std::pair{1.0, 1.702}, {3.0, 5.968}, {8.0, 314.8}}) {
+        scene.forces.alignment_energy = barrier;
+        CHECK(clocks_of(scene, 5.0).rotation == doctest::Approx(slower * in_plane).epsilon(0.12));
+    }
+    scene.forces.alignment_energy = -8.0;  // across the axis: rods go round it
+    CHECK(clocks_of(scene, 5.0).rotation == doctest::Approx(in_plane));
+}
+
+TEST_CASE("rods of a file may be uneven along a long periodic edge; unequal ones have to change places") {
+    Scene scene;
+    Rods rods;
+    for (std::uint64_t id : {0, 1}) rods.push_back(id, {}, {1, 0, 0}, 0.0, 1.0);
+    const auto time = [&] {
+        return free_clocks(scene, *make_mobility(scene)->at(rods, {}), rods, Box({5, 5, 200}), 0.2).spreading;
+    };
+    CHECK(time() == 0.0);
+    scene.rods.start = StartKind::file;
+    const double alone = 40000.0 * 3.0 / (4.0 * std::numbers::pi);  // L^2/(4 pi^2 D)
+    CHECK(time() == doctest::Approx(alone * 0.4096 / 1.9296));
+    rods.diameter[1] = 0.5;
+    CHECK(time() == doctest::Approx(alone));
+}
+
+TEST_CASE("a dense crowd that begins at random is asked for more diffusion times") {
+    CHECK(diffusion_arrest(0.40, 3) == 1.0);
+    CHECK(diffusion_arrest(0.47, 3) == 1.0);
+    CHECK(diffusion_arrest(0.55, 3) > 4.0);
+    CHECK(diffusion_arrest(0.60, 3) > 100.0);
+    CHECK(diffusion_arrest(0.60, 2) == 1.0);
+    Scene scene;
+    Rods rods;
+    rods.push_back(0, {}, {1, 0, 0}, 0.0, 1.0);
+    const auto arrest = [&] { return free_clocks(scene, *make_mobility(scene)->at(rods, {}), rods, {}, 0.57).arrest; };
+    CHECK(arrest() == diffusion_arrest(0.57, 3));
+    scene.rods.start = StartKind::lattice;  // a crystal keeps its places
+    CHECK(arrest() == 1.0);
 }

@@ -142,16 +142,16 @@ TEST_CASE("walls and a bath are asked for two of their times") {
     spheres.row_time = 0.1;
     spheres.watched = {{"collision pressure", autoregressive(generator, 1000, 0.0)}};
     FreeClocks clocks = {0.0, 9.4};
-    clocks.wall_to_wall = 400.0;
+    clocks.spreading = 400.0;
     CHECK(in_words(check_equilibrium(spheres, clocks)) ==
-          "too short to tell: covers 0.25 of a wall-to-wall time; at least 2 are needed");
-    clocks.wall_to_wall = 25.0;
+          "too short to tell: covers 0.25 of a spreading time; at least 2 are needed");
+    clocks.spreading = 25.0;
     clocks.volume = 80.0;
     CHECK(in_words(check_equilibrium(spheres, clocks)) ==
           "too short to tell: covers 1.25 relaxation times; at least 2 are needed");
     clocks.volume = 20.0;
     CHECK(in_words(check_equilibrium(spheres, clocks)) ==
-          "reached: covers 10.6 diffusion times, 4 wall-to-wall times, 5 relaxation times");
+          "reached: covers 10.6 diffusion times, 4 spreading times, 5 relaxation times");
 }
 
 TEST_CASE("rods that nothing turns but their neighbours are judged by how their order decays") {
