@@ -39,11 +39,11 @@ double spreading_time(const Scene& scene, const Box& box, double diffusion, doub
     return longest;
 }
 
-/// Of what turns rods, and swimmers.
-void set_rotation(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, FreeClocks& clocks) {
+/// Of what turns rods, and swimmers, which keep their direction for `persistence`.
+void set_rotation(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, double persistence,
+                  FreeClocks& clocks) {
     const bool turn = std::any_of(rods.length.begin(), rods.length.end(), [](double length) { return length > 0.0; });
     const double memory = axis_memory_time(scene, mobility, rods.size());
-    const double persistence = persistence_time(scene, mobility, rods.size());
     if (turn && std::isfinite(memory)) clocks.rotation = memory;
     // Swimming rods that nothing else turns are turned by their neighbours, spheres by nothing.
     if (swims(scene) && (std::isfinite(persistence) || !turn)) clocks.rotation = std::max(clocks.rotation, persistence);
@@ -57,7 +57,8 @@ FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, con
     FreeClocks clocks;
     if (rods.size() == 0) return clocks;
     const int dimensions = dimensions_of(scene);
-    set_rotation(scene, mobility, rods, clocks);
+    const double persistence = swims(scene) ? persistence_time(scene, mobility, rods.size()) : 0.0;
+    set_rotation(scene, mobility, rods, persistence, clocks);
     if (!grows(scene)) clocks.slowdown = crowding_slowdown(volume_fraction, mean_aspect_ratio(rods), dimensions);
     if (flows(scene))
         clocks.flow = oscillates(scene) ? 1.0 / scene.flow.frequency : 1.0 / std::fabs(scene.flow.shear_rate);
@@ -72,10 +73,9 @@ FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, con
     if (scene.rods.start == StartKind::random || scene.rods.start == StartKind::aligned)
         clocks.arrest = diffusion_arrest(volume_fraction, dimensions);
     const double stiffness = stiffness_of_spheres(volume_fraction, dimensions), speed = scene.motion.self_propulsion;
-    const double heading = speed > 0.0 ? persistence_time(scene, mobility, rods.size()) : 0.0;
     // Rods that differ have to change places, which no pressure hastens.
     const double spreading = kT * slowest * (all_alike(rods) ? stiffness : 1.0) +
-                             (std::isfinite(heading) ? speed * speed * heading / dimensions : 0.0);
+                             (std::isfinite(persistence) ? speed * speed * persistence / dimensions : 0.0);
     clocks.spreading = spreading_time(scene, box, spreading, slowest);
     if (scene.pressure.external && kT > 0.0) {
         const double of_a_rod = total_volume(rods, dimensions) / static_cast<double>(rods.size());

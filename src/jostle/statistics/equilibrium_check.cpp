@@ -47,14 +47,20 @@ std::string covers(double number, const char* what, double least) {
 /// Why the window is too short; empty where it is not. Fills in what it covers.
 std::string too_short(const ProductionSeries& series, const FreeClocks& clocks, double window,
                       EquilibriumCheck& check) {
-    if (clocks.diffusion > 0.0) check.diffusion_times = window / (clocks.arrest * clocks.diffusion);
-    if (clocks.rotation > 0.0) {
-        check.rotation_times = window / clocks.rotation;
-        if (check.rotation_times < least_rotation_times)
-            return covers(check.rotation_times, "rotation time", least_rotation_times);
-    }
+    const auto by = [window](double clock, double least, const char* what, double& times) {
+        if (clock > 0.0) times = window / clock;
+        return clock > 0.0 && times < least ? covers(times, what, least) : std::string();
+    };
+    const std::string by_rotation = by(clocks.rotation, least_rotation_times, "rotation time", check.rotation_times);
+    const std::string by_flow = by(clocks.flow, least_flow_times, "unit of strain, or period,", check.flow_times);
+    const std::string by_diffusion =
+        by(clocks.arrest * clocks.diffusion, least_diffusion_times, "diffusion time", check.diffusion_times);
+    const std::string by_spreading =
+        by(clocks.spreading, least_spreading_times, "spreading time", check.spreading_times);
+    const std::string by_volume = by(clocks.volume, least_volume_times, "relaxation time", check.volume_times);
+    if (!series.order.empty()) check.rotation_time = clocks.rotation;
+    if (!by_rotation.empty()) return by_rotation;
     if (!series.order.empty()) {
-        check.rotation_time = clocks.rotation;
         if (average(series.order).mean < nematic_above) {
             const double decay =
                 tensor_decays_per_rotation(series.dimensions) * decay_of_tensor(series.order_tensor) * series.row_time;
@@ -76,19 +82,9 @@ std::string too_short(const ProductionSeries& series, const FreeClocks& clocks, 
                                orders < 1.0 ? "not one" : fmt::format("{:.2g}", orders), orders < 2.0 ? "" : "s",
                                least_orders);
     }
-    if (clocks.flow > 0.0) check.flow_times = window / clocks.flow;
-    if (clocks.flow > 0.0 && check.flow_times < least_flow_times)
-        return covers(check.flow_times, "unit of strain, or period,", least_flow_times);
-    if (clocks.diffusion > 0.0 && check.diffusion_times < least_diffusion_times)
-        return covers(check.diffusion_times, "diffusion time", least_diffusion_times) +
-               (clocks.arrest > 1.0 ? ", slow as the crowd is" : "");
-    if (clocks.spreading > 0.0) check.spreading_times = window / clocks.spreading;
-    if (clocks.spreading > 0.0 && check.spreading_times < least_spreading_times)
-        return covers(check.spreading_times, "spreading time", least_spreading_times);
-    if (clocks.volume > 0.0) check.volume_times = window / clocks.volume;
-    if (clocks.volume > 0.0 && check.volume_times < least_volume_times)
-        return covers(check.volume_times, "relaxation time", least_volume_times);
-    return "";
+    if (!by_flow.empty()) return by_flow;
+    if (!by_diffusion.empty()) return by_diffusion + (clocks.arrest > 1.0 ? ", slow as the crowd is" : "");
+    return by_spreading.empty() ? by_volume : by_spreading;
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ inline constexpr double least_diffusion_times = 2.0;
 /// Units of strain, or periods, that it has to cover.
 inline constexpr double least_flow_times = 2.0;
 
-/// Times from wall to wall, and relaxation times of the volume.
+/// Spreading times, and relaxation times of the volume.
 inline constexpr double least_spreading_times = 2.0, least_volume_times = 2.0;
 
 /// A column that may not drift in equilibrium.
@@ -65,7 +65,7 @@ struct EquilibriumCheck {
 
 /// Judges the window by clocks and by drifts.
 ///
-/// Too short to tell: fewer than 4 rotation times, 2 diffusion times, 2 units of strain, 2 times from wall to wall or 2
+/// Too short to tell: fewer than 4 rotation times, 2 diffusion times, 2 units of strain, 2 spreading times or 2
 /// relaxation times of the volume, or fewer than 8 independent values of the order. A rotation time is the longer of
 /// that of a free rod, which no series can shorten, and of what the series shows: the order tensor of free rods decays
 /// with 1/(6 D_R), so crowding makes it three times the correlation time of the tensor; in the plane with 1/(4 D_R),

@@ -34,6 +34,14 @@ ProductionSeries isotropic(std::mt19937_64& generator, std::size_t rows, double 
     return series;
 }
 
+/// Of a time of 100: spheres, whose axes do not matter, and whose pressure is white noise.
+ProductionSeries noise_of_spheres(std::mt19937_64& generator) {
+    ProductionSeries series;
+    series.row_time = 0.1;
+    series.watched = {{"collision pressure", autoregressive(generator, 1000, 0.0)}};
+    return series;
+}
+
 }  // namespace
 
 TEST_CASE("a window shorter than four rotation times of a free rod is too short, whatever the series show") {
@@ -42,6 +50,8 @@ TEST_CASE("a window shorter than four rotation times of a free rod is too short,
     const EquilibriumCheck found = check_equilibrium(isotropic(generator, 2000, 2.0), {15000.0, 10.0});
     CHECK(found.verdict == Verdict::too_short);
     CHECK(found.rotation_times == doctest::Approx(2000.0 / 15000.0));
+    CHECK(found.rotation_time == 15000.0);
+    CHECK(found.diffusion_times == 200.0);
     CHECK(in_words(found) == "too short to tell: covers 0.13 of a rotation time; at least 4 are needed");
 }
 
@@ -112,9 +122,7 @@ TEST_CASE("a drifting column is named") {
 TEST_CASE("spheres are asked for diffusion and drifts only, a nematic not for its director") {
     std::mt19937_64 generator(85);
     MESSAGE("seed 85");
-    ProductionSeries spheres;
-    spheres.row_time = 0.1;
-    spheres.watched = {{"collision pressure", autoregressive(generator, 1000, 0.0)}};
+    const ProductionSeries spheres = noise_of_spheres(generator);
     CHECK(check_equilibrium(spheres, {0.0, 9.4}).verdict == Verdict::reached);
     CHECK(in_words(check_equilibrium(spheres, {0.0, 60.0})) ==
           "too short to tell: covers 1.67 diffusion times; at least 2 are needed");
@@ -138,9 +146,7 @@ TEST_CASE("spheres are asked for diffusion and drifts only, a nematic not for it
 TEST_CASE("walls and a bath are asked for two of their times") {
     std::mt19937_64 generator(86);
     MESSAGE("seed 86");
-    ProductionSeries spheres;
-    spheres.row_time = 0.1;
-    spheres.watched = {{"collision pressure", autoregressive(generator, 1000, 0.0)}};
+    const ProductionSeries spheres = noise_of_spheres(generator);
     FreeClocks clocks = {0.0, 9.4};
     clocks.spreading = 400.0;
     CHECK(in_words(check_equilibrium(spheres, clocks)) ==
