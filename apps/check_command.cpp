@@ -189,11 +189,11 @@ void print_schedule(const Scene& scene, const Box& box, double rods_volume) {
 
 /// How many of its own clocks the production covers, and how much of it would do for error bars, which is returned; 0
 /// where nothing tells.
-double print_clocks(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, const Box& box,
-                    double phi) {
+double print_clocks(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, const Box& box, double phi,
+                    std::span<const Spring> springs) {
     constexpr double margin = 1.25;  // over what is needed at the least
     if (grows(scene)) return 0.0;
-    const FreeClocks clocks = free_clocks(scene, mobility, rods, box, phi);
+    const FreeClocks clocks = free_clocks(scene, mobility, rods, box, phi, springs);
     const double production = scene.time.production;
     std::string covered, needed;
     double enough = 0.0;
@@ -230,6 +230,8 @@ double print_clocks(const Scene& scene, const MobilityOperator& mobility, const 
     cover(clocks.spreading, least_spreading_times, "spreading time");
     if (clocks.volume > 0.0) print("volume relaxes in", with_unit(clocks.volume, scene, dimension::time));
     cover(clocks.volume, least_volume_times, "relaxation time");
+    if (clocks.springs > 0.0) print("springs relax in", with_unit(clocks.springs, scene, dimension::time));
+    cover(clocks.springs, least_spring_times, "spring relaxation time");
     if (covered.empty()) return 0.0;
     print("production", needed.empty() ? "covers " + covered + " of a rod alone"
                                        : "too short to tell: covers " + covered + "; at least " + needed);
@@ -358,7 +360,7 @@ ExitCode check(const Scene& scene, const std::string& scene_path) {
     const Ramp<Vec3> ramp_of_box = ramp_of_edges(scene, population.volume);
     const Box last = ramp_of_box.empty() ? box : box.with_edges(ramp_of_box.back().value);
     const double for_errors =
-        print_clocks(scene_at_end(scene), *mobility, population.rods, last, population.volume / last.volume());
+        print_clocks(scene_at_end(scene), *mobility, population.rods, last, population.volume / last.volume(), springs);
     print_cost(scene, population, last, dt, for_errors);
     return ExitCode::done;
 }

@@ -1,6 +1,7 @@
 """What a run says of equilibrium, before and after: states that are not, though nothing in their series shows it, and the scenes of this project, which last."""
 
 import json
+import math
 import re
 from pathlib import Path
 
@@ -106,6 +107,43 @@ def test_a_box_that_has_not_found_its_volume(tmp_path):
                            "pressure": {"external": 2.277, "relaxation_time": 20000.0}})
     finish(tmp_path)
     assert require_no_error_bar(tmp_path, "too short to tell: covers 0.0")["equilibrium"]["volume_relaxation_times"] < 0.1
+
+
+def write_pairs_on_springs(folder, stiffness, **times):
+    """48 pairs of spheres on soft springs, 1.3 D apart at the start."""
+    pairs = [(2.6 * i + 1.3, 2.6 * j + 1.3, 2.8 * k + 1.4) for i in range(4) for j in range(4) for k in range(3)]
+    lines = [f"{x + half},{y},{z},1,0,0\n" for x, y, z in pairs for half in (-0.65, 0.65)]
+    (folder / "rods.csv").write_text("x,y,z,nx,ny,nz\n" + "".join(lines))
+    springs = [f"{2 * pair},{2 * pair + 1},0,0,0,{stiffness}\n" for pair in range(len(pairs))]
+    (folder / "springs.csv").write_text("rod_1,rod_2,s_1,s_2,rest_length,stiffness\n" + "".join(springs))
+    write_scene(folder, {"box": {"edges": [10.4, 10.4, 8.4]}, "rods": {"start": "file", "file": "rods.csv", "length": 0.0},
+                         "springs": {"file": "springs.csv"}, "time": {"rms_step": 0.08, **times}})
+
+
+def test_soft_springs_that_have_not_stretched(tmp_path):
+    """They stretch to 55 D, in 1/(k (mu_1 + mu_2)) = 4700; in 24 the pressure was 0.132(1), and 0.082 is right."""
+    write_pairs_on_springs(tmp_path, 0.001, equilibration=100.0, production=60.0)
+    told = command(tmp_path, "check", "scene.toml").stdout
+    alone = 3 * math.pi / (2 * 0.001)
+    assert float(re.search(r"^springs relax in +(\S+)", told, re.MULTILINE)[1]) == pytest.approx(alone, rel=1e-3)
+    assert re.search(r"^production +too short to tell: .*; at least 2 spring relaxation times are needed", told, re.MULTILINE)
+    assert float(re.search(r"^production for error bars +about (\S+)", told, re.MULTILINE)[1]) == pytest.approx(2.5 * alone, rel=0.05)
+    finish(tmp_path)
+    summary = require_no_error_bar(tmp_path, r"too short to tell: covers 0\.013 of a spring relaxation time")
+    assert summary["equilibrium"]["spring_relaxation_times"] == pytest.approx(60 / alone, rel=0.02)
+
+
+def test_a_pressure_that_springs_are_part_of_has_an_error_bar_only_if_theirs_has(tmp_path):
+    """The window covers three of their relaxation times: enough for the clock, and too few values for an error of their pressure."""
+    write_pairs_on_springs(tmp_path, 0.1, equilibration=100.0, production=150.0)
+    finish(tmp_path)
+    summary = summary_of(tmp_path)
+    assert summary["equilibrium"]["spring_relaxation_times"] == pytest.approx(150 * 2 * 0.1 / (3 * math.pi), rel=0.01)
+    assert summary["pressure_springs"]["standard_error"] is None
+    assert summary["equilibrated"] is True and summary["pressure_collision"]["standard_error"] is not None
+    for name in ("Z", "pressure", "stress", "principal_stresses"):
+        assert summary[name]["standard_error"] in (None, 3 * [None], 3 * [3 * [None]])
+        assert "springs, a part of it" in summary[name]["no_standard_error_because"]
 
 
 def test_swimmers_that_nothing_turns(tmp_path):

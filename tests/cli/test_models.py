@@ -116,3 +116,5 @@ def test_steps_too_long_between_the_images_of_a_rod_are_refused(tmp_path):
     write_scene(tmp_path, changed(scene, box={"edges": [1.00001, 12.0, 12.0]}, time={"rms_step": None}))
     checked = command(tmp_path, "check", "scene.toml")
     assert checked.returncode == DONE and "WARNING" not in checked.stdout, checked.stdout + checked.stderr
+    write_scene(tmp_path, changed(scene, box={"edges": [1.0, 12.0, 12.0]}))
+    require_one_line(command(tmp_path, "check", "scene.toml"), "box.edges = ", "between their own images, however short a step is. Use a larger box")

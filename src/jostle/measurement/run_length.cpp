@@ -23,10 +23,7 @@ RunLength::RunLength(const Scene& scene, double time_step, const FreeClocks& clo
     rows_of_schedule_ = rows(schedule_end(scene));
     if (scene.time.equilibration) fixed_rows_ = rows(*scene.time.equilibration) + production_rows_;
     rows_before_ = static_cast<std::size_t>(std::max(0.0, std::round(begin / row_time)));
-    const double longest = longest_run_in_productions * scene.time.production;
-    can_be_long_enough_ = longest >= least_rotation_times * clocks.rotation &&
-                          longest >= least_diffusion_times * clocks.diffusion &&
-                          longest >= least_flow_times * clocks.flow;
+    can_be_long_enough_ = longest_run_in_productions * scene.time.production >= shortest_window(clocks);
 }
 
 bool RunLength::is_over(const SeriesTable& series) {

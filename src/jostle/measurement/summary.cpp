@@ -117,13 +117,23 @@ void add_window(const SummarisedRun& run, Json& summary) {
     summary["production_rows"] = run.production_rows();
 }
 
+/// Whether a column fluctuates, and in too few independent rows for an error bar.
+bool lacks_error(const SummarisedRun& run, const char* name) {
+    const Average found = run.average_of(name);
+    return found.standard_deviation > 0.0 && !found.standard_error;
+}
+
+/// The stress of springs is a part of these: where it has no error bar, theirs knows nothing of it.
+void withhold_errors_of_slow_springs(const SummarisedRun& run, Json& summary) {
+    if (!run.has_springs() || !lacks_error(run, "pressure_springs")) return;
+    for (const char* name : {"Z", "pressure", "stress", "principal_stresses", "anisotropy"})
+        if (summary.contains(name))
+            withhold_errors(summary[name], "The pressure of springs, a part of it, has no error bar.");
+}
+
 /// Error bars of what does not last are none.
 void withhold_errors_of_no_state(const SummarisedRun& run, Json& summary) {
-    const auto changes = [&](const char* name) {
-        const Average found = run.average_of(name);
-        return found.standard_deviation > 0.0 && !found.standard_error;
-    };
-    if (grows(run.scene) && (changes("N") || changes("phi")))
+    if (grows(run.scene) && (lacks_error(run, "N") || lacks_error(run, "phi")))
         withhold_errors(summary, "Cells grow throughout: averages are of no state that lasts.");
     else if (!run.window.equilibrated() && !grows(run.scene))
         withhold_errors(summary, "Equilibrium: " + in_words(run.window.equilibrium) + ".");
@@ -142,6 +152,7 @@ Json summarise(const Scene& scene, const Simulation& simulation, const SeriesTab
     add_window(run, summary);
     summary["max_overlap"] = run_max_overlap / smallest_diameter(scene, simulation.rods());
     summary["checks"] = summary_checks(run);
+    withhold_errors_of_slow_springs(run, summary);
     withhold_errors_of_no_state(run, summary);
     return summary;
 }

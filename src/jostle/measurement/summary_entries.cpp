@@ -64,6 +64,7 @@ Json described(const EquilibriumCheck& check) {
     entry["diffusion_times"] = if_any(check.diffusion_times);
     entry["spreading_times"] = if_any(check.spreading_times);
     entry["volume_relaxation_times"] = if_any(check.volume_times);
+    entry["spring_relaxation_times"] = if_any(check.spring_times);
     return entry;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 #include "jostle/error/refuse.hpp"
 #include "jostle/parallel/parallel_for.hpp"
@@ -26,6 +27,16 @@ void turn_round(std::span<Spring> springs, std::span<const std::uint64_t> ids) {
         if (turned.contains(spring.rod_1)) spring.s_1 = -spring.s_1;
         if (turned.contains(spring.rod_2)) spring.s_2 = -spring.s_2;
     });
+}
+
+MobilityOfRod mobility_by_id(const Rods& rods, const MobilityOperator& mobility) {
+    if (rods.size() == 1) return [of_all = mobility.of_rod(0)](std::uint64_t) { return of_all; };
+    std::unordered_map<std::uint64_t, std::size_t> rows;
+    for (std::size_t i = 0; i < rods.size(); ++i) rows[rods.id[i]] = i;
+    return [rows = std::move(rows), &mobility](std::uint64_t id) {
+        const auto found = rows.find(id);
+        return found == rows.end() ? RodMobility{} : mobility.of_rod(found->second);
+    };
 }
 
 double spring_relaxation(std::span<const Spring> springs, const MobilityOfRod& mobility_of, double time_step) {

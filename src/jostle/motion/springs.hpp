@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -19,6 +20,10 @@ void require_sound_springs(std::span<const Spring> springs);
 void turn_round(std::span<Spring> springs, std::span<const std::uint64_t> ids);
 
 using MobilityOfRod = std::function<RodMobility(std::uint64_t id)>;
+
+/// Of these rods; where they are one that stands for all, of that, and 0 of an id that is not there. `mobility` must
+/// outlive it.
+MobilityOfRod mobility_by_id(const Rods& rods, const MobilityOperator& mobility);
 
 /// The part of its stretch that any spring loses in a step, at most: dt max over rods of 2 sum over its springs of k m
 /// (theory, eq. 2.17), with m the larger mobility of the point, max(parallel, perpendicular + s^2 rotational).

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <unordered_map>
 
 #include "jostle/contact/own_image.hpp"
 #include "jostle/contact/wca_forces.hpp"
@@ -292,20 +291,13 @@ StepLimit potential_limit(const Scene& scene, const Rods& rods, const MobilityOp
 
 StepLimit spring_limit(const Scene& scene, std::span<const Spring> springs, const Rods& rods,
                        const MobilityOperator& mobility) {
-    std::unordered_map<std::uint64_t, std::size_t> rows;
-    for (std::size_t i = 0; i < rods.size() && !springs.empty(); ++i) rows[rods.id[i]] = i;
-    const auto mobility_of = [&](std::uint64_t id) {
-        if (rods.size() == 1) return mobility.of_rod(0);  // one for all
-        const auto found = rows.find(id);
-        return found == rows.end() ? RodMobility{} : mobility.of_rod(found->second);
-    };
     return {.key = "springs.file",
             .value = scene.springs.file,
             .harm = "names springs that are too stiff for the time step",
             .what = "the part of their stretch that they may lose (2 dt times stiffness times mobility) is",
             .unit = "",
             .remedy = "softer springs",
-            .rate = spring_relaxation(springs, mobility_of, 1.0),
+            .rate = spring_relaxation(springs, mobility_by_id(rods, mobility), 1.0),
             .automatic = automatic_relaxation,
             .advised = advised_relaxation,
             .largest = largest_relaxation};

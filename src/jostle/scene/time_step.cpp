@@ -60,6 +60,8 @@ void require_short_step(std::span<const StepLimit> limits, double step) {
     for (const StepLimit& limit : limits) {
         const double amount = limit.amount(step), over = amount / limit.largest;
         if (!(over > 1.0)) continue;
+        if (limit.step_of(limit.largest) == 0.0)
+            refuse(limit.key, limit.value, limit.harm + ", however short a step is", "", "Use " + limit.remedy);
         const std::string longest = fmt::format("a step of at most {}", rounded(limit.step_of(limit.largest)));
         std::string allowed = longest;
         if (limit.number != 0.0)

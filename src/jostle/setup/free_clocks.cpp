@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "jostle/motion/spring_modes.hpp"
 #include "jostle/scene/pressure_control.hpp"
 #include "jostle/scene/scene_flow.hpp"
 #include "jostle/scene/scene_motion.hpp"
@@ -53,7 +54,7 @@ void set_rotation(const Scene& scene, const MobilityOperator& mobility, const Ro
 }  // namespace
 
 FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, const Box& box,
-                       double volume_fraction) {
+                       double volume_fraction, std::span<const Spring> springs) {
     FreeClocks clocks;
     if (rods.size() == 0) return clocks;
     const int dimensions = dimensions_of(scene);
@@ -77,6 +78,7 @@ FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, con
     const double spreading = kT * slowest * (all_alike(rods) ? stiffness : 1.0) +
                              (std::isfinite(persistence) ? speed * speed * persistence / dimensions : 0.0);
     clocks.spreading = spreading_time(scene, box, spreading, slowest);
+    clocks.springs = slowest_spring_time(springs, mobility_by_id(rods, mobility), kT, dimensions);
     if (scene.pressure.external && kT > 0.0) {
         const double of_a_rod = total_volume(rods, dimensions) / static_cast<double>(rods.size());
         const double count = std::round(volume_fraction * box.volume() / of_a_rod);
@@ -89,7 +91,7 @@ FreeClocks free_clocks(const Scene& scene, const Simulation& simulation) {
     const Rods& rods = simulation.rods();
     const Box& box = simulation.box();
     return free_clocks(scene_at_end(scene), *simulation.mobility().at(rods, box), rods, box,
-                       total_volume(rods, box.dimensions()) / box.volume());
+                       total_volume(rods, box.dimensions()) / box.volume(), simulation.state().springs);
 }
 
 double stiffness_of_spheres(double volume_fraction, int dimensions) {

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <span>
+
 #include "jostle/mobility/mobility.hpp"
 #include "jostle/rods/box.hpp"
 #include "jostle/rods/rods.hpp"
+#include "jostle/rods/spring.hpp"
 #include "jostle/scene/scene.hpp"
 #include "jostle/simulation/simulation.hpp"
 #include "jostle/statistics/equilibrium_check.hpp"
@@ -16,9 +19,9 @@ namespace jostle {
 /// mean L/D; of cells that grow 1. Between walls, under pressure, and from rods of a file a density evens out faster
 /// the harder rods are to compress: by `stiffness_of_spheres`, which no isotropic rods fall short of, if all are alike.
 /// Random starts (and aligned ones, whose places are random) have `diffusion_arrest`. `rods`: all, or one that stands
-/// for all.
+/// for all. `springs`: those between them.
 FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, const Box& box,
-                       double volume_fraction);
+                       double volume_fraction, std::span<const Spring> springs = {});
 /// Those of a simulation as its rods and box are now, after all that the schedule changes in the scene.
 FreeClocks free_clocks(const Scene& scene, const Simulation& simulation);
 

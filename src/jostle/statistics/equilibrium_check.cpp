@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -44,20 +45,43 @@ std::string covers(double number, const char* what, double least) {
     return fmt::format("covers {}; at least {} are needed", in_times(number, what), least);
 }
 
+struct Clock {
+    double time;
+    double least;      ///< of its times a window has to cover
+    const char* what;  ///< "diffusion time"
+    double EquilibriumCheck::*times;
+    const char* why = "";  ///< at the end of the sentence
+};
+
+constexpr const char* crowded = ", slow as the crowd is";
+
+Clock clock_of_rotation(const FreeClocks& clocks) {
+    return {clocks.rotation, least_rotation_times, "rotation time", &EquilibriumCheck::rotation_times};
+}
+
+std::array<Clock, 5> other_clocks(const FreeClocks& clocks) {
+    using Check = EquilibriumCheck;
+    return {{{clocks.flow, least_flow_times, "unit of strain, or period,", &Check::flow_times},
+             {clocks.arrest * clocks.diffusion, least_diffusion_times, "diffusion time", &Check::diffusion_times,
+              clocks.arrest > 1.0 ? crowded : ""},
+             {clocks.spreading, least_spreading_times, "spreading time", &Check::spreading_times},
+             {clocks.volume, least_volume_times, "relaxation time", &Check::volume_times},
+             {clocks.springs, least_spring_times, "spring relaxation time", &Check::spring_times}}};
+}
+
 /// Why the window is too short; empty where it is not. Fills in what it covers.
 std::string too_short(const ProductionSeries& series, const FreeClocks& clocks, double window,
                       EquilibriumCheck& check) {
-    const auto by = [window](double clock, double least, const char* what, double& times) {
-        if (clock > 0.0) times = window / clock;
-        return clock > 0.0 && times < least ? covers(times, what, least) : std::string();
+    const auto by = [window, &check](const Clock& clock) {
+        if (clock.time > 0.0) check.*clock.times = window / clock.time;
+        return clock.time > 0.0 && check.*clock.times < clock.least
+                   ? covers(check.*clock.times, clock.what, clock.least) + clock.why
+                   : std::string();
     };
-    const std::string by_rotation = by(clocks.rotation, least_rotation_times, "rotation time", check.rotation_times);
-    const std::string by_flow = by(clocks.flow, least_flow_times, "unit of strain, or period,", check.flow_times);
-    const std::string by_diffusion =
-        by(clocks.arrest * clocks.diffusion, least_diffusion_times, "diffusion time", check.diffusion_times);
-    const std::string by_spreading =
-        by(clocks.spreading, least_spreading_times, "spreading time", check.spreading_times);
-    const std::string by_volume = by(clocks.volume, least_volume_times, "relaxation time", check.volume_times);
+    const std::string by_rotation = by(clock_of_rotation(clocks));
+    std::string by_others;
+    for (const Clock& clock : other_clocks(clocks))
+        if (std::string short_of = by(clock); by_others.empty()) by_others = std::move(short_of);
     if (!series.order.empty()) check.rotation_time = clocks.rotation;
     if (!by_rotation.empty()) return by_rotation;
     if (!series.order.empty()) {
@@ -74,7 +98,7 @@ std::string too_short(const ProductionSeries& series, const FreeClocks& clocks, 
             check.rotation_times = window / check.rotation_time;
         }
         if (check.rotation_time > 0.0 && check.rotation_times < least_rotation_times)
-            return covers(check.rotation_times, "rotation time", least_rotation_times) + ", slow as the crowd is";
+            return covers(check.rotation_times, "rotation time", least_rotation_times) + crowded;
         const double orders =
             0.5 * static_cast<double>(series.order.size()) / correlation_time(std::span(&series.order, 1));
         if (orders < least_orders)
@@ -82,12 +106,17 @@ std::string too_short(const ProductionSeries& series, const FreeClocks& clocks, 
                                orders < 1.0 ? "not one" : fmt::format("{:.2g}", orders), orders < 2.0 ? "" : "s",
                                least_orders);
     }
-    if (!by_flow.empty()) return by_flow;
-    if (!by_diffusion.empty()) return by_diffusion + (clocks.arrest > 1.0 ? ", slow as the crowd is" : "");
-    return by_spreading.empty() ? by_volume : by_spreading;
+    return by_others;
 }
 
 }  // namespace
+
+double shortest_window(const FreeClocks& clocks) {
+    const Clock rotation = clock_of_rotation(clocks);
+    double shortest = rotation.least * rotation.time;
+    for (const Clock& clock : other_clocks(clocks)) shortest = std::max(shortest, clock.least * clock.time);
+    return shortest;
+}
 
 EquilibriumCheck check_equilibrium(const ProductionSeries& series, const FreeClocks& clocks) {
     EquilibriumCheck check;
@@ -125,7 +154,8 @@ std::string in_words(const EquilibriumCheck& check) {
     for (const auto& [times, what] : {std::pair{check.rotation_times, "rotation time"},
                                       {check.diffusion_times, "diffusion time"},
                                       {check.spreading_times, "spreading time"},
-                                      {check.volume_times, "relaxation time"}})
+                                      {check.volume_times, "relaxation time"},
+                                      {check.spring_times, "spring relaxation time"}})
         if (times > 0.0) covered += (covered.empty() ? "" : ", ") + in_times(times, what);
     return in_words(check.verdict) + (covered.empty() ? "" : ": covers " + covered);
 }

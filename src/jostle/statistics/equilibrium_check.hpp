@@ -7,7 +7,8 @@
 namespace jostle {
 
 /// How long what a run begins with lasts: how a rod alone lies, by how much a crowd slows that, where rods lie between
-/// walls, and the volume of the box. Where there is no such thing the time is 0.
+/// walls, the volume of the box, and how springs are stretched. Where there is no such
+/// thing the time is 0.
 struct FreeClocks {
     double rotation = 0.0;   ///< 1/(2 D_R), in the plane 1/D_R: <n(0).n(t)> has fallen to 1/e
     double diffusion = 0.0;  ///< D^2/D_t
@@ -15,6 +16,7 @@ struct FreeClocks {
     double slowdown = 1.0;   ///< by so many times the order of the crowd relaxes more slowly, by estimate
     double spreading = 0.0;  ///< in which a density evens out that a wall, or a start, makes uneven
     double volume = 0.0;     ///< in which a box under pressure finds its volume, at the longest
+    double springs = 0.0;    ///< in which the slowest mode of a network of springs relaxes
     bool axes_turn = false;  ///< by noise or tumbles, or where rods swim by their neighbours
     double arrest = 1.0;     ///< by so many times the crowd lengthens the diffusion time, next to where rods are caged
 };
@@ -33,8 +35,11 @@ inline constexpr double least_diffusion_times = 2.0;
 /// Units of strain, or periods, that it has to cover.
 inline constexpr double least_flow_times = 2.0;
 
-/// Spreading times, and relaxation times of the volume.
-inline constexpr double least_spreading_times = 2.0, least_volume_times = 2.0;
+/// Spreading times, and relaxation times of the volume and of springs.
+inline constexpr double least_spreading_times = 2.0, least_volume_times = 2.0, least_spring_times = 2.0;
+
+/// The shortest window that a rod alone allows: all clocks, but for what a series shows.
+double shortest_window(const FreeClocks& clocks);
 
 /// A column that may not drift in equilibrium.
 struct WatchedColumn {
@@ -61,18 +66,19 @@ struct EquilibriumCheck {
     double diffusion_times = 0.0;                      ///< likewise
     double flow_times = 0.0;                           ///< likewise, of the flow
     double spreading_times = 0.0, volume_times = 0.0;  ///< likewise
+    double spring_times = 0.0;                         ///< likewise
 };
 
 /// Judges the window by clocks and by drifts.
 ///
 /// Too short to tell: fewer than 4 rotation times, 2 diffusion times, 2 units of strain, 2 spreading times or 2
-/// relaxation times of the volume, or fewer than 8 independent values of the order. A rotation time is the longer of
-/// that of a free rod, which no series can shorten, and of what the series shows: the order tensor of free rods decays
-/// with 1/(6 D_R), so crowding makes it three times the correlation time of the tensor; in the plane with 1/(4 D_R),
-/// where the axis has 1/D_R: four times. Of a nematic, mean S above 0.4, the director may turn for ever, and moves
-/// nothing else; S is slow, and a window that is too short shows it too quick: there the crowd's rotation time is the
-/// estimate. Rods that nothing but their neighbours turns have the clock of the series alone. Drifting: a watched
-/// column, or the order, has a significant `drift`.
+/// relaxation times of the volume or of springs, or fewer than 8 independent values of the order. A rotation time is
+/// the longer of that of a free rod, which no series can shorten, and of what the series shows: the order tensor of
+/// free rods decays with 1/(6 D_R), so crowding makes it three times the correlation time of the tensor; in the plane
+/// with 1/(4 D_R), where the axis has 1/D_R: four times. Of a nematic, mean S above 0.4, the director may turn for
+/// ever, and moves nothing else; S is slow, and a window that is too short shows it too quick: there the crowd's
+/// rotation time is the estimate. Rods that nothing but their neighbours turns have the clock of the series alone.
+/// Drifting: a watched column, or the order, has a significant `drift`.
 EquilibriumCheck check_equilibrium(const ProductionSeries& series, const FreeClocks& clocks);
 
 /// "0.13 of a rotation time", "5.2 rotation times".
