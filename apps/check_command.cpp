@@ -226,6 +226,8 @@ double print_clocks(const Scene& scene, const MobilityOperator& mobility, const 
         print("diffusion time, in the crowd", fmt::format("about {:.2g} {}", clocks.arrest * clocks.diffusion,
                                                           readable_unit_of(scene, dimension::time)));
     cover(clocks.arrest * clocks.diffusion, least_diffusion_times, "diffusion time");
+    if (clocks.passing > 0.0) print("rods pass each other in", with_unit(clocks.passing, scene, dimension::time));
+    cover(clocks.passing, least_passing_times, "passing time");
     if (clocks.spreading > 0.0) print("rods spread in", with_unit(clocks.spreading, scene, dimension::time));
     cover(clocks.spreading, least_spreading_times, "spreading time");
     if (clocks.volume > 0.0) print("volume relaxes in", with_unit(clocks.volume, scene, dimension::time));

@@ -15,16 +15,18 @@ from runs import Run
 from weighted_fit import WeightedFit
 
 SHAPES = {5: 0.0052, 10: 0.0065, 20: 0.0065}  # L/D: volume fraction
+# L/D: rods. Few for long, rather than many for a fifth of a rotation time: until two rods have diffused past each other, which takes some L^2/(4 D_t), five rotation
+# times of slender bodies, they meet again and again, and the scatter of a shorter run over its time does not show how far its mean is off.
+COUNTS = {5: 30000, 10: 10000, 20: 3000}
+QUICK_PART = 20  # so many times fewer in a quick study
 SPEEDS = (0.0, 0.5, 1.0, 2.0, 3.5, 5.0)  # U_0/(L D_R)
 # D. The collision pressure of rods of L/D = 5 that meet in pairs is 0.4(1) % too low at 0.06 D, with an error that goes with the square of the step
 # (docs/decisions/0083-arms-half-way.md): some 0.2 % at the default step.
 RMS_STEP = 0.04
-COUNT, QUICK_COUNT = 200000, 10000
-AVERAGED = 4500  # steps
+AVERAGED = 16  # rotation times 1/(2 D_R)
 # Swimmers gather where they meet, and slow ones take long to: at U_0 = 0.5 L D_R the collision pressure of L/D = 5 and 10 rises by 3 % until rods
-# have diffused over some seven diameters, 6 D_t t = 48 D2; longer rods take until they have turned a little.
+# have diffused over some seven diameters, 6 D_t t = 48 D2; longer rods take until they have turned.
 LEVELLED = round(48 / 3 / RMS_STEP**2)  # steps
-AT_REST = 1100  # steps: a random start of few rods is close to equilibrium
 
 
 def rotational_diffusion(beta):
@@ -39,22 +41,19 @@ def time_step(beta):
     return RMS_STEP**2 / (2 * translational)
 
 
-def equilibration(beta, speed):
-    """Steps left out of the averages."""
-    if speed == 0:
-        return AT_REST
-    return max(LEVELLED, math.ceil(0.3 / (rotational_diffusion(beta) * time_step(beta))))
+def rotation(beta):
+    """Steps of a rotation time."""
+    return math.ceil(0.5 / (rotational_diffusion(beta) * time_step(beta)))
 
 
 def runs(quick):
     return [Run(name=f"L{beta}_U{speed:g}",
                 scene={"seed": 1 + number, "box": {"volume_fraction": phi},
-                       "rods": {"count": QUICK_COUNT if quick else COUNT, "length": float(beta)},
+                       "rods": {"count": COUNTS[beta] // (QUICK_PART if quick else 1), "length": float(beta)},
                        "mobility": {"model": "slender_body"},
                        "motion": {"self_propulsion": speed * beta * rotational_diffusion(beta)},
                        "time": {"step": time_step(beta)}, "contact": {"overlap_limit": 0.9}},
-                equilibration=equilibration(beta, speed),
-                production=AVERAGED * (5 if quick else 1))
+                equilibration=max(LEVELLED, rotation(beta)), production=AVERAGED * rotation(beta))
             for number, (beta, phi, speed) in enumerate((beta, phi, speed) for beta, phi in SHAPES.items() for speed in SPEEDS)]
 
 

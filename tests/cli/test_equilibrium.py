@@ -36,7 +36,7 @@ def test_too_short_to_tell(tmp_path):
                     time={"step": 0.009, "production": 2.0, "equilibration": None})
     write_scene(tmp_path, short)
     told = r"too short to tell: covers 0\.0[5-9]\d? of a rotation time"
-    assert re.search(rf"^production +{told}, 0\.\d+ of a diffusion time; at least 4 ", command(tmp_path, "check", "scene.toml").stdout,
+    assert re.search(rf"^production +{told}, 0\.\d+ of a diffusion time, 0\.\d+ of a passing time; at least 4 ", command(tmp_path, "check", "scene.toml").stdout,
                      re.MULTILINE)
     result = run(tmp_path)
     assert result.returncode == DONE

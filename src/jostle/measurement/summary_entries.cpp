@@ -62,6 +62,7 @@ Json described(const EquilibriumCheck& check) {
     entry["rotation_time"] = if_any(check.rotation_time);
     entry["rotation_times"] = if_any(check.rotation_times);
     entry["diffusion_times"] = if_any(check.diffusion_times);
+    entry["passing_times"] = if_any(check.passing_times);
     entry["spreading_times"] = if_any(check.spreading_times);
     entry["volume_relaxation_times"] = if_any(check.volume_times);
     entry["spring_relaxation_times"] = if_any(check.spring_times);

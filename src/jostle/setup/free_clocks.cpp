@@ -63,20 +63,22 @@ FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, con
     if (!grows(scene)) clocks.slowdown = crowding_slowdown(volume_fraction, mean_aspect_ratio(rods), dimensions);
     if (flows(scene))
         clocks.flow = oscillates(scene) ? 1.0 / scene.flow.frequency : 1.0 / std::fabs(scene.flow.shear_rate);
+    const double speed = scene.motion.self_propulsion;
+    const double by_swimming = std::isfinite(persistence) ? speed * speed * persistence / dimensions : 0.0;
     double slowest = INFINITY;  // of all rods, their translational mobility
     const double kT = thermal_energy(scene);
     for (std::size_t i = 0; i < rods.size(); ++i) {
         const double of_rod = translational_diffusion(1.0, mobility.of_rod(i), dimensions);
         slowest = std::min(slowest, of_rod);
-        if (kT > 0.0)
-            clocks.diffusion = std::max(clocks.diffusion, rods.diameter[i] * rods.diameter[i] / (kT * of_rod));
+        if (kT == 0.0) continue;
+        clocks.diffusion = std::max(clocks.diffusion, rods.diameter[i] * rods.diameter[i] / (kT * of_rod));
+        clocks.passing = std::max(clocks.passing, 0.25 * rods.length[i] * rods.length[i] / (kT * of_rod + by_swimming));
     }
     if (scene.rods.start == StartKind::random || scene.rods.start == StartKind::aligned)
         clocks.arrest = diffusion_arrest(volume_fraction, dimensions);
-    const double stiffness = stiffness_of_spheres(volume_fraction, dimensions), speed = scene.motion.self_propulsion;
+    const double stiffness = stiffness_of_spheres(volume_fraction, dimensions);
     // Rods that differ have to change places, which no pressure hastens.
-    const double spreading = kT * slowest * (all_alike(rods) ? stiffness : 1.0) +
-                             (std::isfinite(persistence) ? speed * speed * persistence / dimensions : 0.0);
+    const double spreading = kT * slowest * (all_alike(rods) ? stiffness : 1.0) + by_swimming;
     clocks.spreading = spreading_time(scene, box, spreading, slowest);
     clocks.springs = slowest_spring_time(springs, mobility_by_id(rods, mobility), kT, dimensions);
     if (scene.pressure.external && kT > 0.0) {

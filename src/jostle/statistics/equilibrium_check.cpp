@@ -59,11 +59,12 @@ Clock clock_of_rotation(const FreeClocks& clocks) {
     return {clocks.rotation, least_rotation_times, "rotation time", &EquilibriumCheck::rotation_times};
 }
 
-std::array<Clock, 5> other_clocks(const FreeClocks& clocks) {
+std::array<Clock, 6> other_clocks(const FreeClocks& clocks) {
     using Check = EquilibriumCheck;
     return {{{clocks.flow, least_flow_times, "unit of strain, or period,", &Check::flow_times},
              {clocks.arrest * clocks.diffusion, least_diffusion_times, "diffusion time", &Check::diffusion_times,
               clocks.arrest > 1.0 ? crowded : ""},
+             {clocks.passing, least_passing_times, "passing time", &Check::passing_times},
              {clocks.spreading, least_spreading_times, "spreading time", &Check::spreading_times},
              {clocks.volume, least_volume_times, "relaxation time", &Check::volume_times},
              {clocks.springs, least_spring_times, "spring relaxation time", &Check::spring_times}}};
@@ -153,6 +154,7 @@ std::string in_words(const EquilibriumCheck& check) {
     std::string covered;
     for (const auto& [times, what] : {std::pair{check.rotation_times, "rotation time"},
                                       {check.diffusion_times, "diffusion time"},
+                                      {check.passing_times, "passing time"},
                                       {check.spreading_times, "spreading time"},
                                       {check.volume_times, "relaxation time"},
                                       {check.spring_times, "spring relaxation time"}})

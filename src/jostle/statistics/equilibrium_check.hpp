@@ -17,6 +17,7 @@ struct FreeClocks {
     double spreading = 0.0;  ///< in which a density evens out that a wall, or a start, makes uneven
     double volume = 0.0;     ///< in which a box under pressure finds its volume, at the longest
     double springs = 0.0;    ///< in which the slowest mode of a network of springs relaxes
+    double passing = 0.0;    ///< L^2/(4 D_t): until then rods that have met meet again and again
     bool axes_turn = false;  ///< by noise or tumbles, or where rods swim by their neighbours
     double arrest = 1.0;     ///< by so many times the crowd lengthens the diffusion time, next to where rods are caged
 };
@@ -31,6 +32,8 @@ constexpr double tensor_decays_per_rotation(int dimensions) {
 }
 /// Diffusion times that it has to cover.
 inline constexpr double least_diffusion_times = 2.0;
+/// Passing times.
+inline constexpr double least_passing_times = 2.0;
 
 /// Units of strain, or periods, that it has to cover.
 inline constexpr double least_flow_times = 2.0;
@@ -64,6 +67,7 @@ struct EquilibriumCheck {
     double rotation_time = 0.0;                        ///< of a rod in the crowd
     double rotation_times = 0.0;                       ///< in the window; 0 where nothing turns
     double diffusion_times = 0.0;                      ///< likewise
+    double passing_times = 0.0;                        ///< likewise
     double flow_times = 0.0;                           ///< likewise, of the flow
     double spreading_times = 0.0, volume_times = 0.0;  ///< likewise
     double spring_times = 0.0;                         ///< likewise
@@ -71,9 +75,9 @@ struct EquilibriumCheck {
 
 /// Judges the window by clocks and by drifts.
 ///
-/// Too short to tell: fewer than 4 rotation times, 2 diffusion times, 2 units of strain, 2 spreading times or 2
-/// relaxation times of the volume or of springs, or fewer than 8 independent values of the order. A rotation time is
-/// the longer of that of a free rod, which no series can shorten, and of what the series shows: the order tensor of
+/// Too short to tell: fewer than 4 rotation times, 2 diffusion or passing times, 2 units of strain, 2 spreading times
+/// or 2 relaxation times of the volume or of springs, or fewer than 8 independent values of the order. A rotation time
+/// is the longer of that of a free rod, which no series can shorten, and of what the series shows: the order tensor of
 /// free rods decays with 1/(6 D_R), so crowding makes it three times the correlation time of the tensor; in the plane
 /// with 1/(4 D_R), where the axis has 1/D_R: four times. Of a nematic, mean S above 0.4, the director may turn for
 /// ever, and moves nothing else; S is slow, and a window that is too short shows it too quick: there the crowd's

@@ -43,6 +43,18 @@ TEST_CASE("a rod turns in 1/(2 D_R); tumbles turn it, too; without noise nothing
     CHECK(clocks_of(scene, 5.0).diffusion == 0.0);
 }
 
+TEST_CASE("two rods pass each other in L^2/(4 D_t), swimmers by how far they swim, too") {
+    Scene scene;
+    CHECK(clocks_of(scene, 0.0).passing == 0.0);
+    const double alone = clocks_of(scene, 5.0).diffusion * 25.0 / 4.0;  // of D^2/D_t
+    CHECK(clocks_of(scene, 5.0).passing == doctest::Approx(alone));
+    scene.motion.self_propulsion = 1.0;
+    const double by_swimming = clocks_of(scene, 5.0).rotation / 3.0;  // U^2 t_p/3, t_p = 1/(2 D_R)
+    CHECK(clocks_of(scene, 5.0).passing == doctest::Approx(1.0 / (1.0 / alone + 4.0 * by_swimming / 25.0)));
+    scene.motion.brownian = false;
+    CHECK(clocks_of(scene, 5.0).passing == 0.0);
+}
+
 TEST_CASE("the clocks know how dense rods are, by their mean L/D") {
     Scene scene;
     Rods rods;

@@ -143,7 +143,7 @@ TEST_CASE("spheres are asked for diffusion and drifts only, a nematic not for it
     CHECK(check_equilibrium(isotropic(generator, 6000, 60.0), {180.0, 50.0, 0.0, 100.0}).verdict == Verdict::reached);
 }
 
-TEST_CASE("walls and a bath are asked for two of their times") {
+TEST_CASE("walls, a bath, springs, and rods that pass each other are asked for two of their times") {
     std::mt19937_64 generator(86);
     MESSAGE("seed 86");
     const ProductionSeries spheres = noise_of_spheres(generator);
@@ -158,6 +158,20 @@ TEST_CASE("walls and a bath are asked for two of their times") {
     clocks.volume = 20.0;
     CHECK(in_words(check_equilibrium(spheres, clocks)) ==
           "reached: covers 10.6 diffusion times, 4 spreading times, 5 relaxation times");
+    clocks.springs = 60.0;
+    CHECK(in_words(check_equilibrium(spheres, clocks)) ==
+          "too short to tell: covers 1.67 spring relaxation times; at least 2 are needed");
+    clocks.springs = 50.0;
+    clocks.passing = 80.0;
+    CHECK(in_words(check_equilibrium(spheres, clocks)) ==
+          "too short to tell: covers 1.25 passing times; at least 2 are needed");
+    clocks.passing = 40.0;
+    CHECK(in_words(check_equilibrium(spheres, clocks)) ==
+          "reached: covers 10.6 diffusion times, 2.5 passing times, 4 spreading times, 5 relaxation times, 2 spring "
+          "relaxation times");
+    CHECK(shortest_window(clocks) == 100.0);
+    clocks.rotation = 30.0;
+    CHECK(shortest_window(clocks) == 120.0);
 }
 
 TEST_CASE("rods that nothing turns but their neighbours are judged by how their order decays") {
