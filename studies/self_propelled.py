@@ -20,8 +20,8 @@ SHAPES = {5: 0.0052, 10: 0.0065, 20: 0.0065}  # L/D: volume fraction
 COUNTS = {5: 30000, 10: 10000, 20: 3000}
 QUICK_PART = 20  # so many times fewer in a quick study
 SPEEDS = (0.0, 0.5, 1.0, 2.0, 3.5, 5.0)  # U_0/(L D_R)
-# D. The collision pressure of rods of L/D = 5 that meet in pairs is 0.4(1) % too low at 0.06 D, with an error that goes with the square of the step
-# (docs/decisions/0083-arms-half-way.md): some 0.2 % at the default step.
+# D, the default. The collision pressure of rods of L/D = 5 that meet in pairs is some 0.4 % too low at 0.06 D, with an error that goes with the square of the step
+# (docs/decisions/0083-arms-half-way.md): some 0.2 % at this one.
 RMS_STEP = 0.04
 AVERAGED = 16  # rotation times 1/(2 D_R)
 # Swimmers gather where they meet, and slow ones take long to: at U_0 = 0.5 L D_R the collision pressure of L/D = 5 and 10 rises by 3 % until rods
