@@ -14,9 +14,10 @@ namespace jostle {
 
 namespace {
 
-/// Whether a start may leave the density uneven along a periodic direction, as no random one and no lattice does.
+/// Whether a start may leave the density uneven along a periodic direction, as no random one and no lattice does. The
+/// box may be roomier than that of the run whose rods begin in it.
 bool may_be_uneven(const Scene& scene) {
-    return scene.rods.start == StartKind::file;
+    return scene.rods.start == StartKind::file || scene.rods.start == StartKind::run;
 }
 
 /// In which a density evens out: between planes H apart H^2/(pi^2 D), its slowest mode, in a box of period L L^2/(4
@@ -74,7 +75,7 @@ FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, con
         clocks.diffusion = std::max(clocks.diffusion, rods.diameter[i] * rods.diameter[i] / (kT * of_rod));
         clocks.passing = std::max(clocks.passing, 0.25 * rods.length[i] * rods.length[i] / (kT * of_rod + by_swimming));
     }
-    if (scene.rods.start == StartKind::random || scene.rods.start == StartKind::aligned)
+    if (scene.rods.start != StartKind::lattice)  // those of a file or a run may have begun at random, too
         clocks.arrest = diffusion_arrest(volume_fraction, dimensions);
     const double stiffness = stiffness_of_spheres(volume_fraction, dimensions);
     // Rods that differ have to change places, which no pressure hastens.

@@ -16,10 +16,10 @@ namespace jostle {
 /// of rotation also where all are spheres that do not swim. Swimmers are asked for the longer of how long they keep
 /// their direction and how long an axis is remembered; of those that nothing turns it is infinite where they are
 /// spheres, and 0, so that the series is asked, where they are rods. The slowdown is that of `crowding_slowdown` at the
-/// mean L/D; of cells that grow 1. Between walls, under pressure, and from rods of a file a density evens out faster
-/// the harder rods are to compress: by `stiffness_of_spheres`, which no isotropic rods fall short of, if all are alike.
-/// Random starts (and aligned ones, whose places are random) have `diffusion_arrest`. `rods`: all, or one that stands
-/// for all. `springs`: those between them.
+/// mean L/D; of cells that grow 1. Between walls, under pressure, and from rods of a file or a run a density evens out
+/// faster the harder rods are to compress: by `stiffness_of_spheres`, which no isotropic rods fall short of, if all are
+/// alike. All starts but lattices, whose places last, have `diffusion_arrest`. `rods`: all, or one that stands for all.
+/// `springs`: those between them.
 FreeClocks free_clocks(const Scene& scene, const MobilityOperator& mobility, const Rods& rods, const Box& box,
                        double volume_fraction, std::span<const Spring> springs = {});
 /// Those of a simulation as its rods and box are now, after all that the schedule changes in the scene.

@@ -179,7 +179,7 @@ TEST_CASE("swimmers in an aligning field have to cross its barrier to turn round
     CHECK(clocks_of(scene, 5.0).rotation == doctest::Approx(in_plane));
 }
 
-TEST_CASE("rods of a file may be uneven along a long periodic edge; unequal ones have to change places") {
+TEST_CASE("rods of a file or a run may be uneven along a long periodic edge; unequal ones have to change places") {
     Scene scene;
     Rods rods;
     for (std::uint64_t id : {0, 1}) rods.push_back(id, {}, {1, 0, 0}, 0.0, 1.0);
@@ -187,14 +187,16 @@ TEST_CASE("rods of a file may be uneven along a long periodic edge; unequal ones
         return free_clocks(scene, *make_mobility(scene)->at(rods, {}), rods, Box({5, 5, 200}), 0.2).spreading;
     };
     CHECK(time() == 0.0);
-    scene.rods.start = StartKind::file;
     const double alone = 40000.0 * 3.0 / (4.0 * std::numbers::pi);  // L^2/(4 pi^2 D)
-    CHECK(time() == doctest::Approx(alone * 0.4096 / 1.9296));
+    for (const StartKind start : {StartKind::file, StartKind::run}) {
+        scene.rods.start = start;
+        CHECK(time() == doctest::Approx(alone * 0.4096 / 1.9296));
+    }
     rods.diameter[1] = 0.5;
     CHECK(time() == doctest::Approx(alone));
 }
 
-TEST_CASE("a dense crowd that begins at random is asked for more diffusion times") {
+TEST_CASE("a dense crowd is asked for more diffusion times, unless it begins as a lattice") {
     CHECK(diffusion_arrest(0.40, 3) == 1.0);
     CHECK(diffusion_arrest(0.47, 3) == 1.0);
     CHECK(diffusion_arrest(0.55, 3) > 4.0);
@@ -204,7 +206,10 @@ TEST_CASE("a dense crowd that begins at random is asked for more diffusion times
     Rods rods;
     rods.push_back(0, {}, {1, 0, 0}, 0.0, 1.0);
     const auto arrest = [&] { return free_clocks(scene, *make_mobility(scene)->at(rods, {}), rods, {}, 0.57).arrest; };
-    CHECK(arrest() == diffusion_arrest(0.57, 3));
+    for (const StartKind start : {StartKind::random, StartKind::aligned, StartKind::file, StartKind::run}) {
+        scene.rods.start = start;
+        CHECK(arrest() == diffusion_arrest(0.57, 3));
+    }
     scene.rods.start = StartKind::lattice;  // a crystal keeps its places
     CHECK(arrest() == 1.0);
 }
