@@ -31,6 +31,7 @@ verdict in studies/results/NAME, and exits 0 only if every check has passed.
 - **Steps.** Reflected ([decision 0061](../decisions/0061-reflected-steps.md)), with arms of contacts half way ([decision 0083](../decisions/0083-arms-half-way.md)); the default rms step is 0.04 D, and 0.025 D where rods order ([decision 0087](../decisions/0087-shorter-steps-where-rods-order.md)).
 - **Errors** are standard errors; twice them covers 95 %. Those of the program follow the order ([decision 0082](../decisions/0082-error-bars-follow-the-order.md)). A run that is too short for one has that of 16 blocks, and its section says so.
 - **Builds.** All studies are by 20ac64fa60b0. Commits after it change no step, only how long a window has to be for an error bar ([decision 0026](../decisions/0026-clocks.md)).
+- **Times** are of shared machines, at times four times slower than alone: the colony, here more than two hours, takes 34 minutes in a quiet one ([decision 0043](../decisions/0043-momentum-in-crowds.md)).
 - **More.** Mixtures, very long rods, the steps of swimmers and of soft rods: [beside the studies](beside_the_studies.md). Walls, planes, forces, flow and pressure: [row by row](set_ups.md). References: [studies/reference](../../studies/reference/README.md).
 """
 
